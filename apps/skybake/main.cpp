@@ -1,0 +1,103 @@
+// The command line of skybake: parses, runs the chosen verb, and turns errors into messages and exit codes. No physics here.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <csignal>
+#include <exception>
+#include <new>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "program.h"
+
+namespace {
+
+using namespace skybake::cli;
+
+/// Levenshtein's edit distance.
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t above = row[j];
+            row[j] = std::min({row[j] + 1, row[j - 1] + 1, diagonal + (a[i - 1] != b[j - 1])});
+            diagonal = above;
+        }
+    }
+    return row[b.size()];
+}
+
+/// The known flag or verb that is nearest to what the user typed.
+std::string nearest_known(const CLI::App& app, const std::string& typed) {
+    std::vector<std::string> known;
+    for (const CLI::App* verb : app.get_subcommands({})) known.push_back(verb->get_name());
+    for (const CLI::App* verb : app.get_subcommands()) {
+        known.clear();
+        for (const CLI::Option* option : verb->get_options()) {
+            for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+        }
+    }
+    const auto nearest = std::min_element(known.begin(), known.end(), [&](const std::string& a, const std::string& b) {
+        return edit_distance(a, typed) < edit_distance(b, typed);
+    });
+    return nearest == known.end() ? "" : *nearest;
+}
+
+int run(int argc, char** argv) {
+    CLI::App app("skybake lights whole cities with real daylight.", "skybake");
+    app.set_version_flag("--version", std::string("skybake ") + SKYBAKE_VERSION);
+    app.require_subcommand(1);
+    app.get_formatter()->column_width(34);
+    Program program;
+    add_demo(app, program);
+    add_town(app, program);
+    add_check(app, program);
+    add_bake(app, program);
+    add_probe(app, program);
+    add_compare(app, program);
+    add_view(app, program);
+    add_sun(app, program);
+    add_sky(app, program);
+
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ExtrasError&) {
+        const std::vector<std::string> extras = app.remaining(true);
+        const std::string typed = extras.empty() ? "" : extras.front().substr(0, extras.front().find('='));
+        const bool is_flag = typed.rfind("-", 0) == 0;
+        fmt::print(stderr, "skybake: unknown {} '{}'; did you mean '{}'? See skybake {}--help.\n", is_flag ? "flag" : "word", typed,
+                   nearest_known(app, typed), app.get_subcommands().empty() ? "" : app.get_subcommands().front()->get_name() + " ");
+        return kWrongUse;
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == 0) return app.exit(error);
+        fmt::print(stderr, "skybake: {}\n", error.what());
+        return kWrongUse;
+    }
+    return program.run();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is no error: `skybake … | head`
+    try {
+        return run(argc, argv);
+    } catch (const skybake::InputError& error) {
+        fmt::print(stderr, "skybake: {}\n", error.what());
+        return kWrongUse;
+    } catch (const skybake::Interrupted&) {
+        fmt::print(stderr, "skybake: interrupted; nothing was left half written.\n");
+        return kInterrupted;
+    } catch (const std::bad_alloc&) {
+        fmt::print(stderr, "skybake: out of memory. Use a coarser --texel, or a part of the city.\n");
+        return kWrongUse;
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "skybake: internal error: {}\nThis is a bug of skybake; please report it with the command line.\n", error.what());
+        return kOurBug;
+    }
+}

@@ -1,0 +1,4 @@
+#include "program.h"
+namespace skybake::cli {
+void add_demo(CLI::App&, Program&) {}
+}

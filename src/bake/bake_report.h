@@ -1,0 +1,32 @@
+// The figures of one bake: what `bake --json` prints and the manifest keeps.
+#pragma once
+
+#include <cstdint>
+
+namespace skybake {
+
+struct RayCounts {
+    std::uint64_t sun = 0;
+    std::uint64_t sky = 0;
+    std::uint64_t photon = 0;
+    std::uint64_t feeler = 0;
+};
+
+/// Wall-clock seconds of each stage.
+struct StageSeconds {
+    double read = 0, build = 0, charts = 0, sun = 0, sky = 0, photons = 0, gather = 0, finish = 0, write = 0, total = 0;
+};
+
+struct BakeReport {
+    std::uint64_t buildings = 0, triangles = 0, charts = 0, pages = 0, texels = 0;
+    double texel_m = 0.5;
+    RayCounts rays;
+    StageSeconds seconds;
+    double rays_per_second = 0.0;           // skylight rays over the seconds of the sky stage
+    double traversal_limit_rays_per_second = 0.0;  // a bare loop of 16-wide packets of one direction, measured in this run
+    double evaluated_fraction = 1.0;        // (texel, direction) pairs really traced / all
+    double predicted_rmse_over_mean = 0.0;  // of the hierarchy against full sampling, from the pilot directions
+    std::uint64_t peak_rss_bytes = 0;
+};
+
+}  // namespace skybake

@@ -1,0 +1,29 @@
+// Where on Earth a city lies, and which way north is. The only user of PROJ.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "base/finding.h"
+#include "base/site.h"
+#include "base/vec.h"
+#include "city/city_model.h"
+
+namespace skybake {
+
+/// Grid north against true north at the city's centre: `convergence_rad` is the azimuth of grid north, clockwise from true north,
+/// so that azimuth_true = azimuth_grid + convergence_rad. (The surveyor's meridian convergence has this sign: positive east of the
+/// central meridian on the northern half.)
+struct Georeference {
+    std::optional<Site> site;  // none when the CRS is unknown: the user must give --site
+    double convergence_rad = 0.0;
+    std::string crs_name;      // "EPSG:31256 MGI / Austria GK East", or empty
+    std::string crs_code;      // "EPSG:31256", or empty
+};
+
+/// Brings the city into metres that are true metres and tells where it lies. A projected CRS stays as it is. Geographic and Web
+/// Mercator coordinates are projected to a transverse Mercator about the city's own centre (findings SB301, SB302); a CRS that PROJ
+/// does not know, or none, leaves the coordinates and gives no site (SB303, SB304).
+Georeference georeference(CityModel& city, FindingLog& findings);
+
+}  // namespace skybake

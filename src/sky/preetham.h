@@ -1,0 +1,4 @@
+#pragma once
+namespace skybake {
+struct PreethamSky {};
+}
