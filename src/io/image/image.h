@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
+#include <string>
 #include <vector>
 
 namespace skybake::io {
@@ -15,13 +17,24 @@ struct Image8 {
     std::vector<std::uint8_t> pixels;  // width × height × channels
 };
 
-/// Writes beside and renames, so that no half file ever stands under the name. Throws InputError when the place cannot be written.
+/// Writes beside and renames, so that no half file ever stands under the name. Throws InputError when the place cannot
+/// be written.
 void write_png(const std::filesystem::path& path, const Image8& image);
 
-/// The same bytes in memory.
+/// The same bytes in memory. Lossless; the same bytes for the same image, everywhere.
 std::vector<std::uint8_t> encode_png(const Image8& image);
 
-/// Reads a PNG or a JPEG, told apart by content, as 8 bit. Throws InputError for anything else, and above `max_pixels`.
+/// Reads a PNG or a JPEG, told apart by content, as 8 bit: grey stays one channel, palettes become RGB, grey with alpha
+/// becomes RGBA, 16 bit is rounded, CMYK becomes RGB. The values are sRGB-encoded as in the file; a PNG that states
+/// another gamma is converted. Throws InputError for anything else, for files that end early, and above `max_pixels`.
 Image8 read_image(const std::filesystem::path& path, std::uint64_t max_pixels = 1ull << 28);
+
+/// The same from bytes in memory; `name` is what messages call it.
+Image8 decode_image(std::span<const std::uint8_t> bytes, const std::string& name,
+                    std::uint64_t max_pixels = 1ull << 28);
+
+enum class ImageFormat : std::uint8_t { png, jpeg, other };
+/// By the first bytes of the file.
+ImageFormat image_format(std::span<const std::uint8_t> bytes);
 
 }  // namespace skybake::io
