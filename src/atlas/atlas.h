@@ -13,7 +13,8 @@
 namespace skybake {
 
 /// A plane of texels with the triangles that lie in it. Texel (i, j) has its centre at origin + (i + 0.5) u + (j + 0.5) v, local metres;
-/// u runs along the wall's own horizontal, v downwards (row 0 is the top), both one texel long, and u × v points against the normal.
+/// u runs along
+/// the wall's own horizontal, v downwards (row 0 is the top), both one texel long (at most: a wall is divided into whole texels from edge to edge), and u × v points against the normal.
 struct Chart {
     PageId page;
     Vec2i position{0};  // column and row of texel (0, 0) in its page
@@ -34,6 +35,12 @@ struct AtlasPage {
     int height = 0;
 };
 
+/// An edge that two charts of nearly one plane share: the light must agree along it.
+struct Seam {
+    ChartId a, b;
+    Vec3f begin{0.0f}, end{0.0f};  // local metres
+};
+
 struct Atlas {
     float texel_m = 0.5f;
     std::vector<Chart> charts;
@@ -41,8 +48,14 @@ struct Atlas {
     std::vector<ChartId> triangle_chart;                   // one a scene triangle
     std::vector<std::array<Vec2f, 3>> triangle_texels;     // page texel coordinates of the corners; (0, 0) is the page's upper left corner
 
+    std::vector<Seam> seams;
+
+    /// Texels of all charts' rectangles, gutters left out.
     std::uint64_t texel_count() const;
 };
+
+/// Where a point falls in the chart, in texels: texel (i, j) covers [i, i + 1) × [j, j + 1).
+Vec2f texel_coordinate(const Chart& chart, const Vec3f& point);
 
 inline constexpr int kMaxPageSize = 2048;
 /// Texels of light that are filled about each chart, so that bilinear lookup and two mip levels stay inside it.

@@ -1,0 +1,184 @@
+#include "bake/finish_chart.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace skybake {
+
+namespace {
+
+constexpr int kNearLit = 3;        // texels: what bilinear lookup and one mip level can reach
+constexpr std::size_t kBuriedRays = 8;
+constexpr int kBackFacesNeeded = 5;
+constexpr int kFillRings = 6;      // gutter, block padding, and what lies under a wall's foot
+
+/// Calls body(index, x, y) for the 3 × 3 neighbourhood inside the grid, the centre left out.
+template <typename Body>
+void for_neighbors(int column, int row, int width, int height, const Body& body) {
+    for (int y = std::max(row - 1, 0); y <= std::min(row + 1, height - 1); ++y) {
+        for (int x = std::max(column - 1, 0); x <= std::min(column + 1, width - 1); ++x) {
+            if (x != column || y != row) body(static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
+        }
+    }
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> find_buried(const Scene& scene, const Chart& chart, const ChartSamples& samples, const ChartLight& light,
+                                      const DomeSamples& dome, const RayScene& rays, std::uint64_t& ray_count) {
+    const int width = samples.size.x, height = samples.size.y;
+    std::vector<std::uint8_t> buried(samples.cover.size(), 0);
+    if (dome.size() == 0) return buried;
+    std::vector<std::uint8_t> near = light.is_lit;
+    for (int ring = 0; ring < kNearLit; ++ring) {
+        std::vector<std::uint8_t> wider = near;
+        for (int row = 0; row < height; ++row) {
+            for (int column = 0; column < width; ++column) {
+                for_neighbors(column, row, width, height, [&](std::size_t j) { wider[samples.index(column, row)] |= near[j]; });
+            }
+        }
+        near = std::move(wider);
+    }
+    for (std::size_t i = 0; i < buried.size(); ++i) {
+        if (samples.cover[i] == ChartSamples::Cover::none || light.is_lit[i] || !near[i]) continue;
+        const Vec3f origin = samples.position[i] + rays.surface_offset() * shading_normal(scene, chart, samples.triangle[i]);
+        int back_faces = 0;
+        for (std::size_t s = 0; s < kBuriedRays; ++s) {
+            const auto hit = rays.first_hit(origin, dome.directions[(2 * s + 1) * dome.size() / (2 * kBuriedRays)]);
+            back_faces += hit && hit->is_back_face;
+        }
+        ray_count += kBuriedRays;
+        buried[i] = back_faces >= kBackFacesNeeded;
+    }
+    return buried;
+}
+
+void write_chart(ChartId id, const Chart& chart, const ChartSamples& samples, std::span<const std::uint8_t> buried, const ChartLight& light,
+                 LightmapPage& page, std::span<LightmapLayer* const> layers) {
+    // The chart's rectangle with its gutter, up to the next block of four.
+    const int width = std::min((chart.size.x + 2 * kGutter + 3) / 4 * 4, page.width - chart.position.x + kGutter);
+    const int height = std::min((chart.size.y + 2 * kGutter + 3) / 4 * 4, page.height - chart.position.y + kGutter);
+    const std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    const auto page_index = [&](int column, int row) {
+        return static_cast<std::size_t>(chart.position.y - kGutter + row) * static_cast<std::size_t>(page.width) +
+               static_cast<std::size_t>(chart.position.x - kGutter + column);
+    };
+
+    std::vector<std::uint8_t> is_filled(count, 0);
+    for (int row = 0; row < chart.size.y; ++row) {
+        for (int column = 0; column < chart.size.x; ++column) {
+            const std::size_t i = samples.index(column, row);
+            if (samples.cover[i] == ChartSamples::Cover::none) continue;
+            const std::size_t p = page_index(column + kGutter, row + kGutter);
+            page.chart[p] = id;
+            page.state[p] = buried[i] ? TexelState::buried : TexelState::chart;
+            page.sky_view_factor[p] = light.sky_view_factor[i];
+            for (std::size_t k = 0; k < layers.size(); ++k) {
+                layers[k]->sky[p] = light.sky[k][i];
+                layers[k]->sun_cosine[p] = light.sun_cosine[k][i];
+            }
+            is_filled[static_cast<std::size_t>(row + kGutter) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column + kGutter)] = !buried[i];
+        }
+    }
+
+    std::vector<std::uint8_t> next;
+    for (int ring = 0; ring < kFillRings; ++ring) {
+        next = is_filled;
+        for (int row = 0; row < height; ++row) {
+            for (int column = 0; column < width; ++column) {
+                const std::size_t i = static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column);
+                if (is_filled[i]) continue;
+                int neighbors = 0;
+                float view_factor = 0.0f;
+                std::vector<std::size_t> sources;
+                sources.reserve(8);
+                for_neighbors(column, row, width, height, [&](std::size_t j) {
+                    if (!is_filled[j]) return;
+                    const std::size_t p = page_index(static_cast<int>(j % static_cast<std::size_t>(width)), static_cast<int>(j / static_cast<std::size_t>(width)));
+                    sources.push_back(p);
+                    view_factor += page.sky_view_factor[p];
+                    ++neighbors;
+                });
+                if (neighbors == 0) continue;
+                const float share = 1.0f / static_cast<float>(neighbors);
+                const std::size_t p = page_index(column, row);
+                page.chart[p] = id;
+                if (page.state[p] == TexelState::empty) page.state[p] = TexelState::gutter;
+                page.sky_view_factor[p] = share * view_factor;
+                for (LightmapLayer* layer : layers) {
+                    Rgb sky(0.0f);
+                    float sun = 0.0f;
+                    for (const std::size_t source : sources) {
+                        sky += layer->sky[source];
+                        sun += layer->sun_cosine[source];
+                    }
+                    layer->sky[p] = share * sky;
+                    layer->sun_cosine[p] = share * sun;
+                }
+                next[i] = 1;
+            }
+        }
+        if (next == is_filled) break;
+        is_filled = next;
+    }
+}
+
+void join_seams(const Atlas& atlas, Lightmaps& lightmaps) {
+    const auto texel_of = [](const LightmapPage& page, int column, int row) {
+        return static_cast<std::size_t>(row) * static_cast<std::size_t>(page.width) + static_cast<std::size_t>(column);
+    };
+    for (const Seam& seam : atlas.seams) {
+        const Chart& a = atlas.charts[seam.a.index()];
+        const Chart& b = atlas.charts[seam.b.index()];
+        LightmapPage& page_a = lightmaps.pages[a.page.index()];
+        const LightmapPage& page_b = lightmaps.pages[b.page.index()];
+        const Vec2f begin = texel_coordinate(a, seam.begin), end = texel_coordinate(a, seam.end);
+        // Every gutter texel whose centre lies within 1.5 texels of the edge: what bilinear lookup along it can touch.
+        const Vec2f lo = glm::min(begin, end) - 1.5f, hi = glm::max(begin, end) + 1.5f;
+        const int column_end = std::min(a.size.x + kGutter, static_cast<int>(std::ceil(hi.x))), row_end = std::min(a.size.y + kGutter, static_cast<int>(std::ceil(hi.y)));
+        for (int row = std::max(-kGutter, static_cast<int>(std::floor(lo.y))); row < row_end; ++row) {
+            for (int column = std::max(-kGutter, static_cast<int>(std::floor(lo.x))); column < column_end; ++column) {
+                const std::size_t p = texel_of(page_a, a.position.x + column, a.position.y + row);
+                if (page_a.state[p] != TexelState::gutter) continue;
+                const Vec2f center(static_cast<float>(column) + 0.5f, static_cast<float>(row) + 0.5f);
+                const Vec2f along = end - begin;
+                const float length2 = glm::dot(along, along);
+                const float t = length2 > 0.0f ? std::clamp(glm::dot(center - begin, along) / length2, 0.0f, 1.0f) : 0.0f;
+                const Vec2f off = center - (begin + t * along);
+                if (glm::dot(off, off) > 1.5f * 1.5f) continue;
+                // The point of a's plane in b's texels; bilinear over those of b's texels that have light.
+                const Vec2f there = texel_coordinate(b, a.origin + center.x * a.u + center.y * a.v) - 0.5f;
+                const int x0 = static_cast<int>(std::floor(there.x)), y0 = static_cast<int>(std::floor(there.y));
+                float weight_sum = 0.0f, view_factor = 0.0f;
+                std::vector<std::pair<std::size_t, float>> sources;
+                for (int k = 0; k < 4; ++k) {
+                    const int x = x0 + (k & 1), y = y0 + (k >> 1);
+                    if (x < 0 || y < 0 || x >= b.size.x || y >= b.size.y) continue;
+                    const std::size_t q = texel_of(page_b, b.position.x + x, b.position.y + y);
+                    if (page_b.state[q] != TexelState::chart && page_b.state[q] != TexelState::buried) continue;
+                    const float fx = there.x - static_cast<float>(x0), fy = there.y - static_cast<float>(y0);
+                    const float weight = (k & 1 ? fx : 1.0f - fx) * (k >> 1 ? fy : 1.0f - fy);
+                    weight_sum += weight;
+                    view_factor += weight * page_b.sky_view_factor[q];
+                    sources.emplace_back(q, weight);
+                }
+                if (weight_sum < 0.1f) continue;
+                page_a.sky_view_factor[p] = view_factor / weight_sum;
+                for (BakedInstant& instant : lightmaps.instants) {
+                    const LightmapLayer& from = instant.pages[b.page.index()];
+                    Rgb sky(0.0f);
+                    float sun = 0.0f;
+                    for (const auto& [q, weight] : sources) {
+                        sky += weight * from.sky[q];
+                        sun += weight * from.sun_cosine[q];
+                    }
+                    LightmapLayer& to = instant.pages[a.page.index()];
+                    to.sky[p] = sky / weight_sum;
+                    to.sun_cosine[p] = sun / weight_sum;
+                }
+            }
+        }
+    }
+}
+
+}  // namespace skybake

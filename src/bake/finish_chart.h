@@ -1,0 +1,36 @@
+// From the light of a chart's own texels to a page that can be looked at: nothing dark where nobody can stand, nothing foreign beside it.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "atlas/atlas.h"
+#include "atlas/chart_samples.h"
+#include "bake/lightmap.h"
+#include "sky/dome_sampling.h"
+#include "trace/ray_scene.h"
+
+namespace skybake {
+
+/// The light of one chart on its own grid, size.x × size.y.
+struct ChartLight {
+    std::vector<std::vector<Rgb>> sky;           // [instant][texel]
+    std::vector<std::vector<float>> sun_cosine;  // [instant][texel]
+    std::vector<float> sky_view_factor;
+    std::vector<std::uint8_t> is_lit;            // sees the sky in at least one direction
+};
+
+/// Which covered texels lie inside or behind another solid: they see no sky, and most of what they see are back faces. Only texels within a few
+/// texels of lit ones are asked, since only those can show. Adds the number of rays to `ray_count`.
+std::vector<std::uint8_t> find_buried(const Scene& scene, const Chart& chart, const ChartSamples& samples, const ChartLight& light,
+                                      const DomeSamples& dome, const RayScene& rays, std::uint64_t& ray_count);
+
+/// Writes the chart into its page, buried texels and gutter filled from their neighbours.
+void write_chart(ChartId id, const Chart& chart, const ChartSamples& samples, std::span<const std::uint8_t> buried, const ChartLight& light,
+                 LightmapPage& page, std::span<LightmapLayer* const> layers);
+
+/// Where charts of nearly one plane meet, each one's gutter takes the other's light, so that both show the same along their edge.
+void join_seams(const Atlas& atlas, Lightmaps& lightmaps);
+
+}  // namespace skybake

@@ -1,0 +1,342 @@
+// Based on: Reichinger, Maierhofer, Tobler, 2006, §4.2 (light on a coarse lattice of 16 × 16 texels, refined by halving). Deviation: the
+// hierarchy runs over each direction's visibility instead of over their sum (docs/decisions/0003-hierarchy-over-visibility.md).
+#include "bake/sky_tile.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+#include "base/check.h"
+#include "bake/visibility_grid.h"
+
+// Each copy does the same operations in the same order, without fused multiply-add: the same bits on every processor.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__) && !defined(__SANITIZE_ADDRESS__)
+#define SKYBAKE_WIDE_LOOP __attribute__((target_clones("avx512f", "avx2", "default")))
+#else
+#define SKYBAKE_WIDE_LOOP
+#endif
+
+namespace skybake {
+
+namespace {
+
+constexpr int kPacket = RayScene::kPacketSize;
+// Directions traced in full before a lattice is chosen. 32 of 1024 are 3 % of the rays; with 16 the anchored errors below were missed
+// twice as often on the old town (docs/validation.md).
+constexpr std::size_t kPilots = 32;
+// A texel is traced always when the pilots' errors there do not average out: net two of them wrong to the same side.
+constexpr float kAnchoredError = 1.75f;
+// Tiles with fewer texels are traced in full: a lattice would save nothing.
+constexpr int kSmallTile = 64;
+// In dark tiles the tolerance is relative to this share of the unobstructed light, lest rays are spent on errors nobody sees.
+constexpr float kDarkTile = 0.1f;
+// From cheap to dear; the first that keeps the tolerance in a tile is taken, the last resort being every texel.
+constexpr std::array<Lattice, 6> kLattices{{{16, 2}, {16, 1}, {8, 2}, {8, 1}, {4, 2}, {4, 1}}};
+
+/// acc[i] += w × v[i].
+SKYBAKE_WIDE_LOOP void add_scaled(float* __restrict acc, const float* __restrict v, float w, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) acc[i] += w * v[i];
+}
+
+/// v[i] = visibility × max(0, n · d): what relief charts weigh a direction with.
+SKYBAKE_WIDE_LOOP void apply_cosine(float* __restrict v, const float* __restrict nx, const float* __restrict ny, const float* __restrict nz,
+                                    float dx, float dy, float dz, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+        const float cosine = nx[i] * dx + ny[i] * dy + nz[i] * dz;
+        v[i] *= cosine > 0.0f ? cosine : 0.0f;
+    }
+}
+
+/// One float a texel from one bit a texel.
+SKYBAKE_WIDE_LOOP void expand_row(float* __restrict v, std::uint64_t bits, int width) {
+    const std::uint32_t low = static_cast<std::uint32_t>(bits), high = static_cast<std::uint32_t>(bits >> 32);
+    const int low_width = std::min(width, 32);
+    for (int x = 0; x < low_width; ++x) v[x] = static_cast<float>(low >> x & 1u);
+    for (int x = 32; x < width; ++x) v[x] = static_cast<float>(high >> (x - 32) & 1u);
+}
+
+/// Rays of one direction from listed texels.
+class RaySource final : public VisibilitySource {
+  public:
+    RaySource(const TilePoints& points, DirectionPacket& packet) : points_(points), packet_(packet) {}
+
+    void look(std::span<const std::uint16_t> texels, std::span<std::uint64_t> visible) override {
+        alignas(64) std::array<float, kPacket> x, y, z;
+        for (std::size_t begin = 0; begin < texels.size(); begin += kPacket) {
+            const int count = static_cast<int>(std::min<std::size_t>(kPacket, texels.size() - begin));
+            for (int i = 0; i < count; ++i) {
+                const std::uint16_t texel = texels[begin + static_cast<std::size_t>(i)];
+                x[i] = points_.x[texel];
+                y[i] = points_.y[texel];
+                z[i] = points_.z[texel];
+            }
+            std::uint32_t free = ~packet_.occluded(x.data(), y.data(), z.data(), count);
+            for (int i = 0; i < count; ++i, free >>= 1) {
+                const std::uint16_t texel = texels[begin + static_cast<std::size_t>(i)];
+                visible[texel / points_.width] |= static_cast<std::uint64_t>(free & 1u) << (texel % points_.width);
+            }
+        }
+    }
+
+  private:
+    const TilePoints& points_;
+    DirectionPacket& packet_;
+};
+
+/// The known answer of a pilot direction.
+class PilotSource final : public VisibilitySource {
+  public:
+    PilotSource(const TilePoints& points, std::span<const std::uint64_t> truth) : points_(points), truth_(truth) {}
+
+    void look(std::span<const std::uint16_t> texels, std::span<std::uint64_t> visible) override {
+        for (const std::uint16_t texel : texels) {
+            const int row = texel / points_.width;
+            visible[row] |= truth_[row] & (1ull << (texel % points_.width));
+        }
+    }
+
+  private:
+    const TilePoints& points_;
+    std::span<const std::uint64_t> truth_;
+};
+
+/// All covered texels in blocks of 4 × 4, so that a packet's rays start side by side.
+class FullSampler {
+  public:
+    FullSampler(const TilePoints& points, DirectionPacket& packet) : points_(points), packet_(packet) {
+        for (int row = 0; row < points.height; row += 4) {
+            for (int column = 0; column < points.width; column += 4) {
+                for (int y = row; y < std::min(row + 4, points.height); ++y) {
+                    for (int x = column; x < std::min(column + 4, points.width); ++x) {
+                        if (points.covered[y] >> x & 1) texels_.push_back(static_cast<std::uint16_t>(points.texel(x, y)));
+                    }
+                }
+            }
+        }
+        for (const std::uint16_t texel : texels_) {
+            x_.push_back(points.x[texel]);
+            y_.push_back(points.y[texel]);
+            z_.push_back(points.z[texel]);
+        }
+    }
+
+    std::size_t size() const { return texels_.size(); }
+
+    void trace(std::span<std::uint64_t> visible) {
+        std::fill(visible.begin(), visible.end(), 0);
+        for (std::size_t begin = 0; begin < texels_.size(); begin += kPacket) {
+            const int count = static_cast<int>(std::min<std::size_t>(kPacket, texels_.size() - begin));
+            std::uint32_t free = ~packet_.occluded(&x_[begin], &y_[begin], &z_[begin], count) & ((1u << count) - 1u);
+            // Blocks are mostly all free or all hidden; walk the free ones.
+            for (; free; free &= free - 1) {
+                const std::uint16_t texel = texels_[begin + static_cast<std::size_t>(std::countr_zero(free))];
+                visible[texel / points_.width] |= 1ull << (texel % points_.width);
+            }
+        }
+    }
+
+  private:
+    const TilePoints& points_;
+    DirectionPacket& packet_;
+    std::vector<std::uint16_t> texels_;
+    std::vector<float> x_, y_, z_;
+};
+
+/// Sums of light over the directions.
+class Accumulator {
+  public:
+    Accumulator(const TilePoints& points, const DomeSamples& dome)
+        : points_(points), dome_(dome), count_(static_cast<std::size_t>(points.width) * static_cast<std::size_t>(points.height)),
+          visibility_(count_), view_factor_(count_, 0.0f), lit_(points.covered.size(), 0) {
+        sums_.assign(3 * dome.weights.size(), std::vector<float>(count_, 0.0f));
+        for (const Vec3f& n : points.normal) {
+            nx_.push_back(n.x);
+            ny_.push_back(n.y);
+            nz_.push_back(n.z);
+        }
+    }
+
+    void add(std::size_t direction, std::span<const std::uint64_t> visible, std::span<const VisibilityGrid::Fraction> fractions) {
+        bool is_dark = fractions.empty();
+        for (int row = 0; row < points_.height; ++row) {
+            lit_[row] |= visible[row];
+            is_dark = is_dark && visible[row] == 0;
+        }
+        if (is_dark) return;
+        for (int row = 0; row < points_.height; ++row) expand_row(&visibility_[static_cast<std::size_t>(points_.texel(0, row))], visible[row], points_.width);
+        for (const VisibilityGrid::Fraction& fraction : fractions) {
+            visibility_[fraction.texel] = fraction.value;
+            if (fraction.value > 0.0f) lit_[fraction.texel / points_.width] |= 1ull << (fraction.texel % points_.width);
+        }
+        if (!nx_.empty()) {
+            const Vec3f& d = dome_.directions[direction];
+            apply_cosine(visibility_.data(), nx_.data(), ny_.data(), nz_.data(), d.x, d.y, d.z, count_);
+        }
+        add_scaled(view_factor_.data(), visibility_.data(), dome_.view_factor_weight[direction], count_);
+        for (std::size_t k = 0; k < dome_.weights.size(); ++k) {
+            for (int c = 0; c < 3; ++c) {
+                const float weight = dome_.weights[k][direction][c];
+                if (weight != 0.0f) add_scaled(sums_[3 * k + static_cast<std::size_t>(c)].data(), visibility_.data(), weight, count_);
+            }
+        }
+    }
+
+    TileLight light() && {
+        TileLight light;
+        light.sky.assign(dome_.weights.size(), std::vector<Rgb>(count_));
+        for (std::size_t k = 0; k < dome_.weights.size(); ++k) {
+            for (std::size_t i = 0; i < count_; ++i) light.sky[k][i] = Rgb(sums_[3 * k][i], sums_[3 * k + 1][i], sums_[3 * k + 2][i]);
+        }
+        light.sky_view_factor = std::move(view_factor_);
+        light.lit = std::move(lit_);
+        return light;
+    }
+
+  private:
+    const TilePoints& points_;
+    const DomeSamples& dome_;
+    std::size_t count_;
+    std::vector<float> visibility_, view_factor_;
+    std::vector<std::uint64_t> lit_;
+    std::vector<std::vector<float>> sums_;  // [3 instant + channel][texel]
+    std::vector<float> nx_, ny_, nz_;
+};
+
+/// What a lattice would have made of the pilot directions.
+struct Trial {
+    double squared_error = 0.0;  // predicted, of the visible share, mean over texels, for all directions
+    double rays = 0.0;           // a direction
+    std::vector<std::uint64_t> anchored;  // texels whose errors do not average out
+};
+
+Trial try_lattice(const TilePoints& points, VisibilityGrid& grid, const Lattice& lattice, std::span<const std::vector<std::uint64_t>> pilots,
+                  std::size_t texel_count, std::size_t direction_count) {
+    Trial trial;
+    trial.anchored.assign(points.covered.size(), 0);
+    std::vector<float> net(static_cast<std::size_t>(points.width) * static_cast<std::size_t>(points.height), 0.0f);
+    std::vector<std::uint64_t> visible(points.covered.size());
+    double independent = 0.0;  // Σ e² over pilots and texels
+    for (const std::vector<std::uint64_t>& truth : pilots) {
+        PilotSource source(points, truth);
+        trial.rays += static_cast<double>(grid.solve(lattice, source, visible));
+        for (const VisibilityGrid::Fraction& f : grid.fractions()) {
+            const int row = f.texel / points.width;
+            const std::uint64_t bit = 1ull << (f.texel % points.width);
+            const float error = f.value - (truth[row] & bit ? 1.0f : 0.0f);
+            net[f.texel] += error;
+            independent += static_cast<double>(error * error);
+            visible[row] = (visible[row] & ~bit) | (truth[row] & bit);  // accounted for
+        }
+        for (int row = 0; row < points.height; ++row) {
+            for (std::uint64_t wrong = visible[row] ^ truth[row]; wrong; wrong &= wrong - 1) {
+                const int column = std::countr_zero(wrong);
+                net[static_cast<std::size_t>(points.texel(column, row))] += visible[row] >> column & 1 ? 1.0f : -1.0f;
+                independent += 1.0;
+            }
+        }
+    }
+    double correlated = 0.0;  // Σ (Σ e)² − Σ e²: pairs of pilots that err alike at one texel
+    for (int row = 0; row < points.height; ++row) {
+        for (int column = 0; column < points.width; ++column) {
+            const float error = net[static_cast<std::size_t>(points.texel(column, row))];
+            correlated += static_cast<double>(error * error);
+            if (std::abs(error) >= kAnchoredError) trial.anchored[row] |= 1ull << column;
+        }
+    }
+    correlated -= independent;
+    const double n = static_cast<double>(pilots.size()), all = static_cast<double>(direction_count), texels = static_cast<double>(texel_count);
+    // E[(Σ_j e_j / N)²] over N directions: the squares of each, and the pairs, whose mean product the pilots estimate.
+    trial.squared_error = (independent / n / all + std::max(0.0, correlated) / (n * (n - 1.0)) * (all - 1.0) / all) / texels;
+    trial.rays /= n;
+    return trial;
+}
+
+std::uint64_t fixed_point(double value) { return static_cast<std::uint64_t>(std::llround(value * 0x1p32)); }
+
+}  // namespace
+
+void SkyTileStatistics::add(const SkyTileStatistics& other) {
+    rays += other.rays;
+    pairs += other.pairs;
+    squared_error_sum += other.squared_error_sum;
+    view_factor_sum += other.view_factor_sum;
+    texels += other.texels;
+}
+
+TileLight light_tile(const TilePoints& points, const DomeSamples& dome, DirectionPacket& packet, const SkyTileOptions& options,
+                     SkyTileStatistics& statistics) {
+    SKYBAKE_CHECK_LE(points.width, TilePoints::kMaxSize);
+    SKYBAKE_CHECK_LE(points.height, TilePoints::kMaxSize);
+    FullSampler full(points, packet);
+    Accumulator sum(points, dome);
+    std::vector<std::uint64_t> visible(points.covered.size());
+    const std::size_t count = dome.size();
+    statistics.pairs += count * full.size();
+    statistics.texels += full.size();
+
+    const auto trace_full = [&](std::size_t j) {
+        packet.set_direction(dome.directions[j]);
+        full.trace(visible);
+        statistics.rays += full.size();
+        sum.add(j, visible, {});
+    };
+
+    if (!options.tolerance || full.size() <= static_cast<std::size_t>(kSmallTile) || count < 4 * kPilots) {
+        for (std::size_t j = 0; j < count; ++j) trace_full(j);
+        return std::move(sum).light();
+    }
+
+    // Pilots: evenly through the list, which is sorted by azimuth and, within, well spread in elevation.
+    std::vector<std::size_t> pilot_index;
+    std::vector<std::vector<std::uint64_t>> pilots;
+    std::uint64_t visible_pairs = 0;
+    for (std::size_t p = 0; p < kPilots; ++p) {
+        pilot_index.push_back((2 * p + 1) * count / (2 * kPilots));
+        trace_full(pilot_index.back());
+        pilots.push_back(visible);
+        for (const std::uint64_t row : visible) visible_pairs += static_cast<std::uint64_t>(std::popcount(row));
+    }
+    const double mean_visibility = static_cast<double>(visible_pairs) / static_cast<double>(kPilots * full.size());
+
+    VisibilityGrid grid(points);
+    const double tolerance = static_cast<double>(*options.tolerance) * std::max(mean_visibility, static_cast<double>(kDarkTile));
+    std::optional<Lattice> chosen;
+    double squared_error = 0.0;
+    const std::vector<std::uint64_t> nothing(points.covered.size(), 0);
+    for (const Lattice& lattice : kLattices) {
+        grid.force(nothing);
+        Trial trial = try_lattice(points, grid, lattice, pilots, full.size(), count);
+        if (std::any_of(trial.anchored.begin(), trial.anchored.end(), [](std::uint64_t row) { return row != 0; })) {
+            grid.force(trial.anchored);
+            trial = try_lattice(points, grid, lattice, pilots, full.size(), count);
+        }
+        if (trial.rays > 0.8 * static_cast<double>(full.size())) break;  // packets of neighbours are faster than scattered ones
+        if (trial.squared_error <= tolerance * tolerance) {
+            chosen = lattice;
+            squared_error = trial.squared_error;
+            break;
+        }
+    }
+
+    RaySource rays(points, packet);
+    std::size_t next_pilot = 0;
+    for (std::size_t j = 0; j < count; ++j) {
+        if (next_pilot < pilot_index.size() && pilot_index[next_pilot] == j) {
+            ++next_pilot;
+            continue;
+        }
+        if (!chosen) {
+            trace_full(j);
+            continue;
+        }
+        packet.set_direction(dome.directions[j]);
+        statistics.rays += grid.solve(*chosen, rays, visible);
+        sum.add(j, visible, grid.fractions());
+    }
+    statistics.squared_error_sum += fixed_point(squared_error * static_cast<double>(full.size()));
+    statistics.view_factor_sum += fixed_point(mean_visibility * static_cast<double>(full.size()));
+    return std::move(sum).light();
+}
+
+}  // namespace skybake

@@ -1,0 +1,162 @@
+#include "trace/ray_scene.h"
+
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <new>
+#include <stdexcept>
+#include <string>
+
+#include "base/check.h"
+
+namespace skybake {
+
+struct RayScene::Embree {
+    RTCDevice device = nullptr;
+    RTCScene scene = nullptr;
+    float surface_offset = 1e-3f;
+
+    ~Embree() {
+        if (scene) rtcReleaseScene(scene);
+        if (device) rtcReleaseDevice(device);
+    }
+};
+
+namespace {
+
+RTCIntersectContext coherent_context() {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    return context;
+}
+
+RTCRay single_ray(const Vec3f& origin, const Vec3f& direction, float distance) {
+    RTCRay ray{};
+    ray.org_x = origin.x;
+    ray.org_y = origin.y;
+    ray.org_z = origin.z;
+    ray.dir_x = direction.x;
+    ray.dir_y = direction.y;
+    ray.dir_z = direction.z;
+    ray.tnear = 0.0f;
+    ray.tfar = distance;
+    ray.mask = ~0u;
+    return ray;
+}
+
+}  // namespace
+
+RayScene::RayScene(const Scene& scene) : embree_(std::make_unique<Embree>()) {
+    embree_->device = rtcNewDevice(nullptr);
+    if (!embree_->device) throw std::runtime_error("Embree cannot start on this processor");
+    embree_->scene = rtcNewScene(embree_->device);
+    // Robust: no ray slips through the edge between two triangles of a closed wall.
+    rtcSetSceneFlags(embree_->scene, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneBuildQuality(embree_->scene, RTC_BUILD_QUALITY_HIGH);
+
+    if (!scene.triangles.empty()) {
+        RTCGeometry geometry = rtcNewGeometry(embree_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+        const std::size_t count = scene.triangles.size();
+        auto* vertices = static_cast<Vec3f*>(
+            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3f), 3 * count));
+        auto* indices = static_cast<std::uint32_t*>(
+            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), count));
+        if (!vertices || !indices) throw std::bad_alloc();
+        std::memcpy(vertices, scene.triangles.data(), count * sizeof(scene.triangles[0]));
+        for (std::size_t i = 0; i < 3 * count; ++i) indices[i] = static_cast<std::uint32_t>(i);
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometry(embree_->scene, geometry);
+        rtcReleaseGeometry(geometry);
+    }
+    rtcCommitScene(embree_->scene);
+    const RTCError error = rtcGetDeviceError(embree_->device);
+    if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
+    if (error != RTC_ERROR_NONE) throw std::runtime_error("Embree cannot build its hierarchy: error " + std::to_string(error));
+
+    float reach = 1.0f;
+    if (!scene.bounds.is_empty()) {
+        for (int axis = 0; axis < 3; ++axis) reach = std::max({reach, std::abs(scene.bounds.lo[axis]), std::abs(scene.bounds.hi[axis])});
+    }
+    // 16 units in the last place of the farthest coordinate: a corner is off by half of one, a plane through three by a few.
+    embree_->surface_offset = std::max(1e-3f, 16.0f * reach * 0x1p-23f);
+}
+
+RayScene::~RayScene() = default;
+RayScene::RayScene(RayScene&&) noexcept = default;
+
+bool RayScene::is_occluded(const Vec3f& origin, const Vec3f& direction, float distance) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRay ray = single_ray(origin, direction, distance);
+    rtcOccluded1(embree_->scene, &context, &ray);
+    return ray.tfar < 0.0f;
+}
+
+std::optional<Hit> RayScene::first_hit(const Vec3f& origin, const Vec3f& direction) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRayHit query{};
+    query.ray = single_ray(origin, direction, std::numeric_limits<float>::infinity());
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(embree_->scene, &context, &query);
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+    const Vec3f normal(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z);
+    return Hit{query.ray.tfar, query.hit.primID, query.hit.u, query.hit.v, glm::dot(normal, direction) > 0.0f};
+}
+
+float RayScene::surface_offset() const { return embree_->surface_offset; }
+
+const char* RayScene::isa() const {
+    // Embree picks the widest instruction set that it was built for and that the processor has.
+    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw") &&
+        rtcGetDeviceProperty(embree_->device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED)) {
+        return "avx512";
+    }
+    if (__builtin_cpu_supports("avx2")) return "avx2";
+    if (__builtin_cpu_supports("avx")) return "avx";
+    return "sse";
+}
+
+struct DirectionPacket::Rays {
+    RTCRay16 packet;
+    RTCIntersectContext context;
+};
+
+DirectionPacket::DirectionPacket(const RayScene& scene) : scene_(scene), rays_(new Rays) {
+    std::memset(static_cast<void*>(&rays_->packet), 0, sizeof(rays_->packet));
+    std::fill_n(rays_->packet.mask, RayScene::kPacketSize, ~0u);
+    rays_->context = coherent_context();
+}
+
+DirectionPacket::~DirectionPacket() { delete rays_; }
+
+void DirectionPacket::set_direction(const Vec3f& direction, float distance) {
+    distance_ = distance;
+    std::fill_n(rays_->packet.dir_x, RayScene::kPacketSize, direction.x);
+    std::fill_n(rays_->packet.dir_y, RayScene::kPacketSize, direction.y);
+    std::fill_n(rays_->packet.dir_z, RayScene::kPacketSize, direction.z);
+}
+
+std::uint32_t DirectionPacket::occluded(const float* x, const float* y, const float* z, int count) {
+    alignas(64) static constexpr int kAllThenNone[2 * RayScene::kPacketSize] = {-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1,
+                                                                                -1, -1, -1, -1, -1, 0,  0,  0,  0,  0,  0,
+                                                                                0,  0,  0,  0,  0,  0,  0,  0,  0,  0};
+    SKYBAKE_DCHECK_LT(count, RayScene::kPacketSize + 1);
+    RTCRay16& packet = rays_->packet;
+    const std::size_t bytes = static_cast<std::size_t>(count) * sizeof(float);
+    std::memcpy(packet.org_x, x, bytes);
+    std::memcpy(packet.org_y, y, bytes);
+    std::memcpy(packet.org_z, z, bytes);
+    std::fill_n(packet.tfar, RayScene::kPacketSize, distance_);
+    alignas(64) int valid[RayScene::kPacketSize];
+    std::memcpy(valid, kAllThenNone + RayScene::kPacketSize - count, sizeof(valid));
+    rtcOccluded16(valid, scene_.embree_->scene, &rays_->context, &packet);
+    std::uint32_t blocked = 0;
+    for (int i = 0; i < count; ++i) blocked |= static_cast<std::uint32_t>(packet.tfar[i] < 0.0f) << i;
+    return blocked;
+}
+
+}  // namespace skybake
