@@ -1,7 +1,6 @@
 // The light of one instant: a sky model and the sun's beam, in the world frame (x = grid east, y = grid north, z up).
 #pragma once
 
-#include <optional>
 #include <string>
 #include <variant>
 
@@ -11,7 +10,7 @@
 
 namespace skybake {
 
-/// Same luminance everywhere above the horizon.
+/// Same luminance everywhere above the horizon, white (D65).
 struct UniformSky {
     float luminance_cd_m2 = 1000.0f;
 };
@@ -19,28 +18,44 @@ struct UniformSky {
 /// No skylight at all.
 struct NoSky {};
 
-/// The closed set of sky models. A new one adds an alternative here and an overload of the two functions below.
+/// The closed set of sky models. A new one adds an alternative here and an overload of the two functions that
+/// daylight.cpp visits it with.
 using SkyModel = std::variant<NoSky, UniformSky, PreethamSky>;
 
-/// Luminance of the sky in a unit direction of the world frame, cd m⁻² per channel; 0 below the horizon; never negative, always finite.
+/// Luminance of the sky in a unit direction of the world frame, cd m⁻² per channel; 0 below the horizon; never
+/// negative, always finite. Costs about 0.1 µs. Thread-safe.
 Rgb sky_luminance(const SkyModel& sky, const Vec3f& direction);
 
-/// Broadband radiance in a unit direction, W m⁻² sr⁻¹; 0 below the horizon.
+/// The same as CIE 1931 XYZ (Y in cd m⁻²) before the colour is brought into Rec. 709.
+Xyz sky_xyz(const SkyModel& sky, const Vec3d& direction);
+
+/// Broadband radiance in a unit direction, W m⁻² sr⁻¹; 0 below the horizon. The model's luminance over one luminous
+/// efficacy for the whole sky.
 float sky_radiance(const SkyModel& sky, const Vec3f& direction);
+
+/// What the sky without the sun gives to the open horizontal plane: lx per channel, and W m⁻². Quadrature error below
+/// 2e-4.
+struct HorizontalDiffuse {
+    Rgb illuminance{0.0f};
+    double irradiance_w_m2 = 0.0;
+};
+HorizontalDiffuse horizontal_diffuse(const SkyModel& sky);
 
 enum class SunShape { point, disc, none };
 
-/// The direct beam. `direction` points to the sun's centre in the world frame (the convergence of the grid is already applied).
+/// The direct beam. `direction` points to the sun's centre in the world frame (refraction and the convergence of the
+/// grid are applied).
 struct SunBeam {
     Vec3f direction{0.0f, 0.0f, 1.0f};
-    Rgb normal_illuminance{0.0f};      // lx per channel on a plane that faces the sun; 0 below the horizon
-    float dni_w_m2 = 0.0f;             // broadband direct normal irradiance
+    Rgb normal_illuminance{
+        0.0f};  // lx per channel on a plane that faces the sun; 0 on and below the horizon, and for SunShape::none
+    float dni_w_m2 = 0.0f;                // broadband direct normal irradiance; 0 likewise
     float angular_radius_rad = 0.00465f;  // half of 0.533° over the distance in AU
     SunShape shape = SunShape::point;
 };
 
 struct Daylight {
-    std::string label;  // the instant as ISO 8601 with its offset, or "sun AZ,EL"
+    std::string label;  // the instant as ISO 8601 with its offset, "sun AZ,EL" in degrees, or "no sun"
     SkyModel sky;
     SunBeam sun;
 };

@@ -1,4 +1,49 @@
+// The clear sky's luminance and colour. Based on: Preetham, Shirley, Smits, "A practical analytic model for daylight",
+// SIGGRAPH 1999, appendix A, with the five-digit coefficients of the authors' own program (docs/physics.md says where
+// the model fails).
 #pragma once
+
+#include "base/vec.h"
+#include "sky/colour.h"
+
 namespace skybake {
-struct PreethamSky {};
-}
+
+/// scale (1 + A e^{B/cos θ}) (1 + C e^{D γ} + E cos² γ): θ from the zenith, γ from the sun.
+struct PerezDistribution {
+    double a = 0.0;
+    double b = 0.0;
+    double c = 0.0;
+    double d = 0.0;
+    double e = 0.0;
+    double scale = 0.0;
+};
+
+/// A Preetham sky for one turbidity and sun; made by preetham_sky, evaluated in any number of directions.
+struct PreethamSky {
+    Vec3d sun_direction{0.0, 0.0, 1.0};  // world frame, never below the horizon
+    PerezDistribution luminance;         // cd m⁻²
+    PerezDistribution x;                 // CIE 1931 chromaticity
+    PerezDistribution y;
+    double efficacy_lm_w = 130.0;  // luminance over broadband radiance, lm W⁻¹
+};
+
+/// The turbidities between which the model's distribution and colour are usable (docs/physics.md); preetham_sky
+/// evaluates at the nearer end.
+inline constexpr double kPreethamLeastTurbidity = 1.7;
+inline constexpr double kPreethamMostTurbidity = 15.0;
+
+/// The sky at the absolute level of the paper. A sun below the horizon is taken as standing on it at its azimuth. The
+/// paper's zenith luminance is negative for a high turbidity and a low sun (T > 11.2 at the horizon): such a sky comes
+/// out black.
+PreethamSky preetham_sky(double turbidity, const Vec3d& sun_direction);
+
+/// The same distribution and colour with another level: its horizontal illuminance becomes `illuminance_lx` (≥ 0).
+PreethamSky scaled_to(PreethamSky sky, double illuminance_lx);
+
+/// Illuminance of the open horizontal plane by the whole sky, lx; quadrature error below 1e-4.
+double horizontal_illuminance(const PreethamSky& sky);
+
+/// Luminance (cd m⁻²) with its colour in a unit direction; black below the horizon.
+Xyz sky_xyz(const PreethamSky& sky, const Vec3d& direction);
+
+}  // namespace skybake
