@@ -1,0 +1,37 @@
+// Names of the files of a bake: written and read through the same functions.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <string>
+
+namespace skybake::io::names {
+
+inline const char* const kManifest = "manifest.json";
+inline const char* const kCity = "city.glb";
+inline const char* const kLightFolder = "light";
+
+inline std::string base(std::size_t page) {
+    return fmt::format("light/p{}_base.exr", page);
+}
+inline std::string sky_view(std::size_t page) {
+    return fmt::format("light/p{}_svf.png", page);
+}
+inline std::string light(std::size_t instant, std::size_t page) {
+    return fmt::format("light/i{}_p{}.exr", instant, page);
+}
+inline std::string sky(std::size_t instant, std::size_t page) {
+    return fmt::format("light/i{}_p{}_sky.png", instant, page);
+}
+inline std::string sun(std::size_t instant, std::size_t page) {
+    return fmt::format("light/i{}_p{}_sun.png", instant, page);
+}
+inline std::string scales(std::size_t instant) {
+    return fmt::format("light/i{}_scales.bin", instant);
+}
+inline std::string panorama(std::size_t instant) {
+    return fmt::format("light/i{}_sky.bin", instant);
+}
+
+}  // namespace skybake::io::names

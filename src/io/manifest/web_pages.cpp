@@ -1,0 +1,124 @@
+#include "io/manifest/web_pages.h"
+
+#include <Imath/half.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace skybake::io {
+namespace {
+
+/// sRGB encoding of linear [0, 1] in 8 bit, rounded to nearest, by the linear values where the code changes: exact, and
+/// ten times as fast as a power for each texel.
+class SrgbEncoder {
+  public:
+    SrgbEncoder() {
+        for (std::size_t code = 0; code < 255; ++code)
+            threshold_[code] = linear_from_srgb((static_cast<float>(code) + 0.5f) / 255.0f);
+        // The first code that a coarse linear value may have: the search goes on from there.
+        std::uint8_t code = 0;
+        for (std::size_t i = 0; i < start_.size(); ++i) {
+            while (code < 255 && threshold_[code] <= static_cast<float>(i) / kBuckets) ++code;
+            start_[i] = code;
+        }
+    }
+    std::uint8_t operator()(float linear) const {
+        const float v = std::clamp(linear, 0.0f, 1.0f);
+        std::uint8_t code = start_[static_cast<std::size_t>(v * kBuckets)];
+        while (code < 255 && threshold_[code] <= v) ++code;
+        return code;
+    }
+
+  private:
+    static constexpr float kBuckets = 1024.0f;
+    std::array<float, 255> threshold_{};
+    std::array<std::uint8_t, 1025> start_{};
+};
+
+std::uint8_t eight_bit(float linear) {
+    return static_cast<std::uint8_t>(std::lround(255.0f * std::clamp(linear, 0.0f, 1.0f)));
+}
+
+float inverse_or_zero(float scale) {
+    return scale > 0.0f ? 1.0f / scale : 0.0f;
+}
+
+Image8 empty_picture(const LightmapPage& page, int channels) {
+    return {page.width, page.height, channels,
+            std::vector<std::uint8_t>(page.state.size() * static_cast<std::size_t>(channels))};
+}
+
+}  // namespace
+
+std::vector<ChartScale> chart_scales(const Lightmaps& light, std::size_t instant, std::size_t chart_count) {
+    std::vector<ChartScale> scales(chart_count);
+    for (std::size_t p = 0; p < light.pages.size(); ++p) {
+        const LightmapPage& page = light.pages[p];
+        const LightmapLayer& layer = light.instants[instant].pages[p];
+        for (std::size_t t = 0; t < page.state.size(); ++t) {
+            if (page.state[t] == TexelState::empty) continue;
+            ChartScale& scale = scales[page.chart[t].index()];
+            const Rgb& sky = layer.sky[t];
+            scale.sky_klx = std::max(scale.sky_klx, 1e-3f * std::max({sky.x, sky.y, sky.z}));
+            scale.sun_cosine = std::max(scale.sun_cosine, layer.sun_cosine[t]);
+        }
+    }
+    return scales;
+}
+
+Image8 sky_picture(const Lightmaps& light, std::size_t instant, std::size_t page,
+                   const std::vector<ChartScale>& scales) {
+    static const SrgbEncoder encode;
+    const LightmapPage& base = light.pages[page];
+    const std::vector<Rgb>& sky = light.instants[instant].pages[page].sky;
+    Image8 image = empty_picture(base, 3);
+    for (std::size_t t = 0; t < sky.size(); ++t) {
+        if (base.state[t] == TexelState::empty) continue;
+        const float factor = 1e-3f * inverse_or_zero(scales[base.chart[t].index()].sky_klx);
+        for (int c = 0; c < 3; ++c) image.pixels[3 * t + static_cast<std::size_t>(c)] = encode(factor * sky[t][c]);
+    }
+    return image;
+}
+
+Image8 sun_picture(const Lightmaps& light, std::size_t instant, std::size_t page,
+                   const std::vector<ChartScale>& scales) {
+    const LightmapPage& base = light.pages[page];
+    const std::vector<float>& sun = light.instants[instant].pages[page].sun_cosine;
+    Image8 image = empty_picture(base, 1);
+    for (std::size_t t = 0; t < sun.size(); ++t) {
+        if (base.state[t] == TexelState::empty) continue;
+        image.pixels[t] = eight_bit(sun[t] * inverse_or_zero(scales[base.chart[t].index()].sun_cosine));
+    }
+    return image;
+}
+
+Image8 sky_view_picture(const LightmapPage& page) {
+    Image8 image = empty_picture(page, 1);
+    for (std::size_t t = 0; t < page.state.size(); ++t) {
+        image.pixels[t] = page.state[t] == TexelState::empty ? 255 : eight_bit(page.sky_view_factor[t]);
+    }
+    return image;
+}
+
+double exposure_hint(const Lightmaps& light, std::size_t instant) {
+    double sum_lx = 0.0;
+    std::uint64_t count = 0;
+    for (std::size_t p = 0; p < light.pages.size(); ++p) {
+        for (std::size_t t = 0; t < light.pages[p].state.size(); ++t) {
+            if (light.pages[p].state[t] != TexelState::chart) continue;
+            sum_lx += static_cast<double>(luminance(total_irradiance(light.instants[instant], p, t)));
+            ++count;
+        }
+    }
+    if (count == 0 || !(sum_lx > 0.0)) return 1.0;
+    const double mean_luminance_kcd = sum_lx / static_cast<double>(count) / 1000.0 / kPi;
+    return 0.5 / mean_luminance_kcd;
+}
+
+std::uint16_t half_from_float(float value) {
+    if (std::isnan(value)) return 0;
+    return Imath::half(std::clamp(value, -static_cast<float>(HALF_MAX), static_cast<float>(HALF_MAX))).bits();
+}
+
+}  // namespace skybake::io

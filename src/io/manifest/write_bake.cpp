@@ -1,0 +1,367 @@
+#include "io/manifest/write_bake.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <system_error>
+
+#include "base/check.h"
+#include "base/error.h"
+#include "io/exr/exr.h"
+#include "io/file/replace_file.h"
+#include "io/manifest/names.h"
+#include "io/manifest/sha256.h"
+#include "io/manifest/web_pages.h"
+
+namespace skybake::io {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <typename T>
+std::vector<std::uint8_t> bytes_of(const std::vector<T>& values) {
+    std::vector<std::uint8_t> bytes(values.size() * sizeof(T));
+    if (!bytes.empty()) std::memcpy(bytes.data(), values.data(), bytes.size());
+    return bytes;
+}
+
+void write_base(const std::filesystem::path& path, const LightmapPage& page) {
+    const std::array<ExrChannel, 3> channels = {ExrChannel{"state", ExrType::uint32},
+                                                ExrChannel{"chart", ExrType::uint32},
+                                                ExrChannel{"sky_view_factor", ExrType::float32}};
+    const std::size_t width = static_cast<std::size_t>(page.width);
+    write_exr(path, page.width, page.height, channels,
+              [&](int row, std::span<std::uint32_t> samples) {
+                  const std::size_t first = static_cast<std::size_t>(row) * width;
+                  for (std::size_t x = 0; x < width; ++x) {
+                      const bool is_empty = page.state[first + x] == TexelState::empty;
+                      samples[x] = static_cast<std::uint32_t>(page.state[first + x]);
+                      samples[width + x] = is_empty ? 0 : page.chart[first + x].value;
+                      samples[2 * width + x] =
+                          std::bit_cast<std::uint32_t>(is_empty ? 0.0f : page.sky_view_factor[first + x]);
+                  }
+              },
+              {{"skybake.state", "0 empty, 1 chart, 2 buried, 3 gutter"}});
+}
+
+void write_light(const std::filesystem::path& path, const Lightmaps& light, std::size_t instant, std::size_t page) {
+    std::vector<ExrChannel> channels;
+    for (const char* layer : {"", "sun.", "sky."}) {
+        for (const char* color : {"R", "G", "B"}) channels.push_back({std::string(layer) + color, ExrType::float32});
+    }
+    const std::size_t width = static_cast<std::size_t>(light.pages[page].width);
+    const LightmapLayer& layer = light.instants[instant].pages[page];
+    const Rgb beam = light.instants[instant].daylight.sun.normal_illuminance;
+    write_exr(path, light.pages[page].width, light.pages[page].height, channels,
+              [&](int row, std::span<std::uint32_t> samples) {
+                  const std::size_t first = static_cast<std::size_t>(row) * width;
+                  for (std::size_t x = 0; x < width; ++x) {
+                      const Rgb total = total_irradiance(light.instants[instant], page, first + x);
+                      const Rgb sun = layer.sun_cosine[first + x] * beam;
+                      const Rgb& sky = layer.sky[first + x];
+                      for (int c = 0; c < 3; ++c) {
+                          const std::size_t at = static_cast<std::size_t>(c) * width + x;
+                          samples[at] = std::bit_cast<std::uint32_t>(total[c]);
+                          samples[3 * width + at] = std::bit_cast<std::uint32_t>(sun[c]);
+                          samples[6 * width + at] = std::bit_cast<std::uint32_t>(sky[c]);
+                      }
+                  }
+              },
+              {{"skybake.unit", "lx per channel, linear Rec. 709"},
+               {"skybake.instant", light.instants[instant].daylight.label}});
+}
+
+std::vector<std::uint8_t> panorama_bytes(const std::vector<Rgb>& panorama) {
+    std::vector<std::uint16_t> halves;
+    halves.reserve(4 * panorama.size());
+    for (const Rgb& pixel : panorama) {
+        for (int c = 0; c < 3; ++c) halves.push_back(half_from_float(1e-3f * pixel[c]));
+        halves.push_back(half_from_float(1.0f));
+    }
+    return bytes_of(halves);
+}
+
+std::vector<std::uint8_t> scale_bytes(const std::vector<ChartScale>& scales) {
+    std::vector<float> values;
+    values.reserve(2 * scales.size());
+    for (const ChartScale& scale : scales) values.insert(values.end(), {scale.sky_klx, scale.sun_cosine});
+    return bytes_of(values);
+}
+
+/// Takes away what makes the folder a bake, then what an older bake, or one that was killed, wrote below the names that
+/// are ours.
+void clear_old_bake(const std::filesystem::path& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder / names::kLightFolder, error);
+    if (error)
+        throw InputError(fmt::format("{}: cannot be made ({}). Choose another place.",
+                                     (folder / names::kLightFolder).string(), error.message()));
+    const auto remove = [&](const std::filesystem::path& path) {
+        std::filesystem::remove(path, error);
+        if (error)
+            throw InputError(
+                fmt::format("{}: of an older bake, cannot be removed ({}).", path.string(), error.message()));
+    };
+    remove(folder / names::kManifest);
+    for (const char* name : {names::kManifest, names::kCity}) remove(folder / (std::string(name) + ".part"));
+    remove(folder / names::kCity);
+    static const std::regex ours(
+        "(p[0-9]+_(base\\.exr|svf\\.png)|i[0-9]+_(p[0-9]+(\\.exr|_sky\\.png|_sun\\.png)|scales\\.bin|sky\\.bin))(\\."
+        "part)?");
+    std::vector<std::filesystem::path> old;
+    for (const std::filesystem::directory_entry& entry :
+         std::filesystem::directory_iterator(folder / names::kLightFolder)) {
+        if (std::regex_match(entry.path().filename().string(), ours)) old.push_back(entry.path());
+    }
+    for (const std::filesystem::path& path : old) remove(path);
+}
+
+/// The double that has the float's shortest decimals: 0.1, not 0.10000000149011612.
+double shortest(float value) {
+    return std::stod(fmt::format("{}", value));
+}
+
+Json to_json(const Vec3f& v) {
+    return {shortest(v.x), shortest(v.y), shortest(v.z)};
+}
+Json to_json(const Vec3d& v) {
+    return {v.x, v.y, v.z};
+}
+
+const char* name_of(SunShape shape) {
+    switch (shape) {
+        case SunShape::point:
+            return "point";
+        case SunShape::disc:
+            return "disc";
+        case SunShape::none:
+            break;
+    }
+    return "none";
+}
+
+Json sun_json(const SunBeam& sun) {
+    const Vec3d d(sun.direction);
+    const double azimuth = degrees_from_radians(std::atan2(d.x, d.y));
+    return {{"shape", name_of(sun.shape)},
+            {"azimuth_deg", azimuth < 0.0 ? azimuth + 360.0 : azimuth},
+            {"elevation_deg", degrees_from_radians(std::asin(std::clamp(d.z, -1.0, 1.0)))},
+            {"direction", to_json(sun.direction)},
+            {"normal_illuminance_klx", to_json(1e-3 * Vec3d(sun.normal_illuminance))},
+            {"dni_w_m2", shortest(sun.dni_w_m2)},
+            {"angular_radius_deg", degrees_from_radians(static_cast<double>(sun.angular_radius_rad))}};
+}
+
+/// The figures that come out the same whenever the bake is repeated.
+Json report_json(const BakeReport& r) {
+    return {{"buildings", r.buildings},
+            {"triangles", r.triangles},
+            {"charts", r.charts},
+            {"pages", r.pages},
+            {"texels", r.texels},
+            {"texel_m", r.texel_m},
+            {"rays", {{"sun", r.rays.sun}, {"sky", r.rays.sky}, {"photon", r.rays.photon}, {"feeler", r.rays.feeler}}},
+            {"evaluated_fraction", r.evaluated_fraction},
+            {"predicted_rmse_over_mean", r.predicted_rmse_over_mean}};
+}
+
+Json findings_json(const FindingLog& findings) {
+    Json list = Json::array();
+    for (const Finding& f : findings.list()) {
+        list.push_back({{"code", f.code},
+                        {"severity", skybake::name_of(f.severity)},
+                        {"where", f.where},
+                        {"what", f.what},
+                        {"remedy", f.remedy},
+                        {"count", f.count}});
+    }
+    return list;
+}
+
+Json instant_json(const BakeOutput& output, std::size_t instant, double exposure) {
+    const InstantDescription& description = output.description.instants[instant];
+    Json pages = Json::array();
+    for (std::size_t p = 0; p < output.light.pages.size(); ++p) {
+        pages.push_back(
+            {{"exr", names::light(instant, p)}, {"sky", names::sky(instant, p)}, {"sun", names::sun(instant, p)}});
+    }
+    Json json = {{"label", output.light.instants[instant].daylight.label}};
+    if (description.utc) json["utc"] = *description.utc;
+    json["sun"] = sun_json(output.light.instants[instant].daylight.sun);
+    json["sky"] = {{"model", description.sky_model},
+                   {"panorama",
+                    {{"uri", names::panorama(instant)},
+                     {"width", kPanoramaWidth},
+                     {"height", kPanoramaHeight},
+                     {"format", "rgba16f"},
+                     {"unit", "kcd/m2"}}}};
+    json["scales"] = {{"uri", names::scales(instant)}};
+    json["exposure_hint"] = exposure;
+    json["pages"] = pages;
+    return json;
+}
+
+Json manifest_json(const BakeOutput& output, const std::vector<FileHash>& hashes, const std::vector<double>& exposures,
+                   const Json& files) {
+    const BakeDescription& d = output.description;
+    Json site = nullptr;
+    if (d.site) {
+        site = {{"latitude_deg", degrees_from_radians(d.site->latitude_rad)},
+                {"longitude_deg", degrees_from_radians(d.site->longitude_rad)}};
+    }
+    Json settings = Json::object();
+    for (const auto& [name, value] : d.settings) settings[name] = value;
+    Json inputs = Json::array();
+    for (std::size_t i = 0; i < hashes.size(); ++i) {
+        inputs.push_back(
+            {{"file", d.inputs[i].filename().string()}, {"bytes", hashes[i].bytes}, {"sha256", hashes[i].sha256}});
+    }
+    Json pages = Json::array();
+    for (std::size_t p = 0; p < output.light.pages.size(); ++p) {
+        pages.push_back({{"width", output.light.pages[p].width},
+                         {"height", output.light.pages[p].height},
+                         {"base", names::base(p)},
+                         {"svf", names::sky_view(p)}});
+    }
+    Json instants = Json::array();
+    for (std::size_t i = 0; i < output.light.instants.size(); ++i)
+        instants.push_back(instant_json(output, i, exposures[i]));
+    Json views = Json::array();
+    for (const BakeView& view : d.views)
+        views.push_back({{"name", view.name}, {"position", to_json(view.position)}, {"target", to_json(view.target)}});
+    const Box3f bounds = output.scene.bounds.is_empty() ? Box3f{Vec3f(0.0f), Vec3f(0.0f)} : output.scene.bounds;
+    return {
+        {"format", "skybake-bake"},
+        {"version", 1},
+        {"generator", {{"name", "skybake"}, {"version", d.version}}},
+        {"title", d.title},
+        {"crs", d.crs},
+        {"site", site},
+        {"convergence_deg", degrees_from_radians(d.convergence_rad)},
+        {"origin", to_json(output.scene.origin)},
+        {"bounds", {{"min", to_json(bounds.lo)}, {"max", to_json(bounds.hi)}}},
+        {"texel_m", shortest(output.atlas.texel_m)},
+        {"seed", d.seed},
+        {"sky_samples", d.sky_samples},
+        {"sampling", d.sampling},
+        {"tolerance", d.tolerance},
+        {"settings", settings},
+        {"inputs", inputs},
+        {"isa", d.isa},
+        {"units",
+         {{"illuminance", "lx"},
+          {"luminance", "cd/m2"},
+          {"length", "m"},
+          {"angle", "degree"},
+          {"color", "linear Rec. 709, photometric: 0.2126 R + 0.7152 G + 0.0722 B is the illuminance or luminance"}}},
+        {"pages", pages},
+        {"charts", output.atlas.charts.size()},
+        {"instants", instants},
+        {"views", views},
+        {"files", files},
+        {"report", report_json(output.report)},
+        {"findings", findings_json(output.findings)}};
+}
+
+/// A file, or a group of files that share work; `steps` is a guess of its cost for the progress.
+struct Job {
+    std::uint64_t steps = 1;
+    std::function<void()> run;
+};
+
+}  // namespace
+
+WrittenBake write_bake(const std::filesystem::path& folder, const BakeOutput& output, Progress& progress) {
+    const Lightmaps& light = output.light;
+    const BakeDescription& description = output.description;
+    const std::size_t page_count = light.pages.size();
+    const std::size_t instant_count = light.instants.size();
+    SKYBAKE_CHECK_EQ(output.atlas.pages.size(), page_count);
+    SKYBAKE_CHECK_EQ(description.instants.size(), instant_count);
+    for (const InstantDescription& instant : description.instants) {
+        SKYBAKE_CHECK_EQ(instant.sky_panorama.size(), std::size_t{kPanoramaWidth} * kPanoramaHeight);
+    }
+    clear_old_bake(folder);
+
+    WrittenBake written;
+    std::vector<FileHash> hashes(description.inputs.size());
+    std::vector<double> exposures(instant_count);
+    std::vector<std::string> files = {names::kCity};
+    std::vector<Job> jobs;
+    // The GLB comes first: it is the longest piece of work that one thread does alone.
+    jobs.push_back({4, [&] {
+                        std::vector<std::vector<std::uint8_t>> sky_view_pngs(page_count);
+                        tbb::parallel_for(std::size_t{0}, page_count, [&](std::size_t p) {
+                            sky_view_pngs[p] = encode_png(sky_view_picture(light.pages[p]));
+                            write_file(folder / names::sky_view(p), sky_view_pngs[p]);
+                        });
+                        const GlbInfo info{"skybake " + description.version, description.crs};
+                        written.glb = write_glb(folder / names::kCity, output.scene, output.atlas, sky_view_pngs, info);
+                    }});
+    for (std::size_t f = 0; f < description.inputs.size(); ++f) {
+        jobs.push_back({1, [&, f] { hashes[f] = hash_file(description.inputs[f]); }});
+    }
+    for (std::size_t i = 0; i < instant_count; ++i) {
+        files.push_back(names::scales(i));
+        files.push_back(names::panorama(i));
+        jobs.push_back({1 + page_count, [&, i] {
+                            exposures[i] = exposure_hint(light, i);
+                            const std::vector<ChartScale> scales = chart_scales(light, i, output.atlas.charts.size());
+                            write_file(folder / names::scales(i), scale_bytes(scales));
+                            write_file(folder / names::panorama(i),
+                                       panorama_bytes(description.instants[i].sky_panorama));
+                            tbb::parallel_for(std::size_t{0}, 2 * page_count, [&](std::size_t k) {
+                                const std::size_t p = k / 2;
+                                if (k % 2 == 0) write_png(folder / names::sky(i, p), sky_picture(light, i, p, scales));
+                                if (k % 2 == 1) write_png(folder / names::sun(i, p), sun_picture(light, i, p, scales));
+                            });
+                        }});
+    }
+    for (std::size_t p = 0; p < page_count; ++p) {
+        files.push_back(names::base(p));
+        files.push_back(names::sky_view(p));
+        jobs.push_back({1, [&, p] { write_base(folder / names::base(p), light.pages[p]); }});
+        for (std::size_t i = 0; i < instant_count; ++i) {
+            files.insert(files.end(), {names::light(i, p), names::sky(i, p), names::sun(i, p)});
+            jobs.push_back({4, [&, i, p] { write_light(folder / names::light(i, p), light, i, p); }});
+        }
+    }
+    std::uint64_t steps = 0;
+    for (const Job& job : jobs) steps += job.steps;
+    progress.begin("write", steps);
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, jobs.size(), 1),
+        [&](const tbb::blocked_range<std::size_t>& range) {
+            for (std::size_t j = range.begin(); j < range.end(); ++j) {
+                if (progress.stop_requested()) throw Interrupted();
+                jobs[j].run();
+                progress.advance(jobs[j].steps);
+            }
+        },
+        tbb::simple_partitioner());
+    if (progress.stop_requested()) throw Interrupted();
+
+    std::sort(files.begin(), files.end());
+    Json file_list = Json::array();
+    for (const std::string& name : files) {
+        const std::uint64_t bytes = std::filesystem::file_size(folder / name);
+        file_list.push_back({{"name", name}, {"bytes", bytes}});
+        written.bytes += bytes;
+    }
+    written.files = files.size();
+    const Json manifest = manifest_json(output, hashes, exposures, file_list);
+    FileReplacement file(folder / names::kManifest);
+    file.write(manifest.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+    file.commit();
+    return written;
+}
+
+}  // namespace skybake::io
