@@ -1,0 +1,236 @@
+import { Bake } from './core/bake';
+import { clampEv } from './core/exposure';
+import { LoadError } from './core/load_error';
+import { pictures, type Mode, type Picture } from './core/pictures';
+import { text } from './core/text';
+import { luminance, type Vec3 } from './core/units';
+import { formatViewState, parseViewState, type ViewState } from './core/view_state';
+import { Viewer, type ViewerStats } from './three/viewer';
+import type { WalkKey } from './three/walk';
+import { element } from './ui/element';
+import { ProgressNotice, showError } from './ui/notices';
+import { Panel } from './ui/panel';
+
+/** A view whose eye stands this low over the ground is meant to be walked from, metres. */
+const highestWalker = 4;
+const linkIntervalMs = 300;
+
+type NamedView = { name: string; position: Vec3; target: Vec3 } | 'birds-eye' | 'on-foot';
+
+/** Joins the bake, the drawing and the page. */
+export class App {
+  readonly viewer: Viewer;
+  private bake: Bake | null = null;
+  private panel: Panel | null = null;
+  private views: NamedView[] = [];
+  private readonly canvas: HTMLCanvasElement;
+  private readonly progress = new ProgressNotice();
+  private readonly said = element('p', { class: 'said', role: 'status' });
+  private readonly help = element('p', { class: 'help' });
+  private linkTimer: number | null = null;
+
+  /** Throws LoadError when the browser has no WebGL 2. */
+  constructor(readonly manifestUrl: string, antialias: boolean) {
+    this.canvas = element('canvas', { tabindex: '0', role: 'application', 'aria-label': text.canvasLabel });
+    document.body.append(this.canvas, this.progress.root, this.said, this.help);
+    try {
+      this.viewer = new Viewer(this.canvas, {
+        antialias,
+        onViewChange: () => this.viewChanged(),
+        onContextLost: () => showError(new Error(text.error.contextLost)),
+      });
+    } catch {
+      throw new Error(text.error.noWebGl);
+    }
+  }
+
+  /** Loads the bake and shows its first picture. Throws LoadError. */
+  async start(): Promise<void> {
+    this.progress.begin(text.loading(text.loadingParts.manifest), null);
+    const bake = await Bake.load(this.manifestUrl, this.progress.advance);
+    this.bake = bake;
+    const { manifest } = bake;
+    if (manifest.instants.length === 0) throw new LoadError(this.manifestUrl, text.error.noInstants);
+    document.title = text.pageTitle(manifest.title);
+
+    this.progress.begin(text.loading(text.loadingParts.city), bake.bytesOf('city.glb'));
+    await this.viewer.open(bake, this.progress.advance);
+
+    this.views = [...manifest.views, 'birds-eye', 'on-foot'];
+    this.panel = new Panel(
+      {
+        title: manifest.title,
+        instants: manifest.instants.map((instant) => instant.label),
+        views: this.views.map((view) => (view === 'birds-eye' ? text.birdsEye : view === 'on-foot' ? text.onFoot : view.name)),
+        texelM: manifest.texel_m,
+      },
+      {
+        instant: (index) => void this.showInstant(index),
+        picture: (picture) => this.setPicture(picture),
+        mode: (mode) => this.setMode(mode),
+        view: (index) => this.showView(index),
+        ev: (ev) => this.setEv(ev),
+      },
+    );
+    document.body.append(this.panel.opener, this.panel.root, this.makePad());
+    this.restore(parseViewState(location.hash));
+    await this.showInstant(this.instantOfLink());
+    window.addEventListener('keydown', (event) => this.key(event));
+    window.addEventListener('hashchange', () => this.restoreFromLink());
+  }
+
+  async showInstant(index: number): Promise<void> {
+    const { bake } = this;
+    if (!bake) return;
+    const { label } = bake.instant(index);
+    this.progress.begin(text.loading(text.loadingParts.light(label)), bake.bytesOfInstant(index));
+    try {
+      if (!(await this.viewer.showInstant(index, this.progress.advance))) return; // overtaken: the later call ends the progress
+    } catch (error) {
+      showError(error);
+      throw error;
+    }
+    this.progress.end();
+    this.said.textContent = text.nowShowing(label);
+    this.showSun(index);
+    this.refresh();
+  }
+
+  setPicture(picture: Picture): void {
+    this.viewer.picture = picture;
+    this.refresh();
+  }
+
+  setEv(ev: number): void {
+    this.viewer.ev = clampEv(ev);
+    this.refresh();
+  }
+
+  setMode(mode: Mode): void {
+    if (mode === this.viewer.mode) return;
+    if (mode === 'orbit') this.viewer.leaveWalk();
+    else if (!this.viewer.walkFrom(null)) this.said.textContent = text.noGround;
+    this.panel?.showView(null);
+    this.refresh();
+    this.canvas.focus({ preventScroll: true });
+  }
+
+  /** Looks from a place; on foot when the eye is near the ground. */
+  look(position: Vec3, target: Vec3): void {
+    const height = this.viewer.heightOverGround(position);
+    const isLow = height !== null && height >= 0 && height <= highestWalker;
+    if (!isLow || !this.viewer.walkFrom({ position, target })) this.viewer.lookAt(position, target);
+    this.refresh();
+  }
+
+  showView(index: number): void {
+    const view = this.views[index];
+    if (view === undefined) return;
+    if (view === 'birds-eye') {
+      const { position, target } = this.viewer.birdsEye();
+      this.viewer.lookAt(position, target);
+    } else if (view === 'on-foot') {
+      this.viewer.leaveWalk();
+      if (!this.viewer.walkFrom(null)) this.said.textContent = text.noGround;
+    } else {
+      this.look(view.position, view.target);
+    }
+    this.panel?.showView(index);
+    this.refresh();
+  }
+
+  stats(): ViewerStats {
+    return this.viewer.stats();
+  }
+
+  private restore(state: Partial<ViewState>): void {
+    if (state.picture) this.viewer.picture = state.picture;
+    if (state.ev !== undefined) this.viewer.ev = clampEv(state.ev);
+    if (state.position && state.target) {
+      const isWalking = state.mode === 'walk' && this.viewer.walkFrom({ position: state.position, target: state.target });
+      if (!isWalking) this.viewer.lookAt(state.position, state.target);
+      this.panel?.showView(null);
+    } else if (state.mode === 'walk') {
+      this.showView(this.views.indexOf('on-foot'));
+    } else {
+      this.showView(0);
+    }
+  }
+
+  private instantOfLink(): number {
+    const wanted = parseViewState(location.hash).instant ?? 0;
+    return Math.min(wanted, (this.bake?.manifest.instants.length ?? 1) - 1);
+  }
+
+  private restoreFromLink(): void {
+    const state = parseViewState(location.hash);
+    if (Object.keys(state).length === 0) return;
+    this.restore(state);
+    void this.showInstant(this.instantOfLink());
+  }
+
+  private refresh(): void {
+    const { viewer } = this;
+    this.panel?.update({ instant: Math.max(0, viewer.instant), picture: viewer.picture, mode: viewer.mode, ev: viewer.ev, exposure: viewer.exposure });
+    this.help.textContent = text.help[viewer.mode];
+    this.canvas.dataset['mode'] = viewer.mode;
+    this.viewChanged();
+  }
+
+  private showSun(index: number): void {
+    if (!this.bake) return;
+    const { sun } = this.bake.instant(index);
+    const azimuth = (sun.azimuth_deg + this.bake.manifest.convergence_deg + 720) % 360;
+    this.panel?.showSun(sun.shape === 'none' ? text.noSun : text.sun(azimuth, sun.elevation_deg, luminance(sun.normal_illuminance_klx)));
+  }
+
+  /** Writes the link at most a few times a second: browsers refuse more. */
+  private viewChanged(): void {
+    if (this.viewer.instant < 0) return;
+    this.linkTimer ??= window.setTimeout(() => {
+      this.linkTimer = null;
+      const { viewer } = this;
+      const link = formatViewState({ ...viewer.view, mode: viewer.mode, picture: viewer.picture, instant: viewer.instant, ev: viewer.ev });
+      history.replaceState(null, '', link);
+    }, linkIntervalMs);
+  }
+
+  private key(event: KeyboardEvent): void {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    if (event.target instanceof Element && event.target.matches('select, textarea, input:not([type=range])')) return;
+    const instants = this.bake?.manifest.instants.length ?? 0;
+    const picture = pictures[Number(event.key) - 1];
+    if (picture) this.setPicture(picture);
+    else if (event.key === ',' && this.viewer.instant > 0) void this.showInstant(this.viewer.instant - 1);
+    else if (event.key === '.' && this.viewer.instant < instants - 1) void this.showInstant(this.viewer.instant + 1);
+    else if (event.key === '+' || event.key === '=') this.setEv(this.viewer.ev + 0.5);
+    else if (event.key === '-') this.setEv(this.viewer.ev - 0.5);
+    else if (event.code === 'KeyO') this.setMode('orbit');
+    else if (event.code === 'KeyP') this.setMode('walk');
+    else if (event.code === 'KeyR') this.showView(0);
+    else if (event.code === 'KeyH') this.panel?.show(!this.panel.isShown);
+    else return;
+    event.preventDefault();
+  }
+
+  /** Arrows for fingers: shown on touch screens, in walk mode. */
+  private makePad(): HTMLElement {
+    const signs: [WalkKey & keyof typeof text.movePadButtons, string][] = [['forward', '↑'], ['left', '←'], ['back', '↓'], ['right', '→']];
+    const pad = element('div', { class: 'pad', role: 'group', 'aria-label': text.movePad });
+    for (const [key, sign] of signs) {
+      const button = element('button', { type: 'button', 'aria-label': text.movePadButtons[key] }, [sign]);
+      button.addEventListener('pointerdown', () => this.viewer.pressWalkKey(key, true));
+      for (const name of ['pointerup', 'pointercancel', 'pointerleave'] as const) {
+        button.addEventListener(name, () => this.viewer.pressWalkKey(key, false));
+      }
+      // Keyboards and screen readers click: half a step at a time.
+      button.addEventListener('click', (event) => {
+        if (event.detail !== 0) return;
+        const [along, aside] = { forward: [1, 0], back: [-1, 0], left: [0, -1], right: [0, 1] }[key] as [number, number];
+        this.viewer.walkBy(along, aside, 0.5);
+      });
+      pad.append(button);
+    }
+    return pad;
+  }
+}

@@ -1,0 +1,123 @@
+import { fetchBytes, type OnBytes } from './fetch';
+import type { Manifest } from './generated/manifest';
+import validateManifest from './generated/validate_manifest.js';
+import { LoadError } from './load_error';
+import { Panorama } from './panorama';
+import { text } from './text';
+
+export type BakedInstant = Manifest['instants'][number];
+
+/** The light of one instant as it stands in the files; the PNG pages are still encoded. */
+export interface InstantLight {
+  /** Two a chart: scale of the sky's page (klx), scale of the sun's page (cosine). */
+  scales: Float32Array<ArrayBuffer>;
+  panorama: Panorama;
+  pages: { sky: EncodedPage; sun: EncodedPage }[];
+}
+
+export interface EncodedPage {
+  url: string;
+  bytes: Uint8Array<ArrayBuffer>;
+  width: number;
+  height: number;
+}
+
+const maxProblemsShown = 4;
+
+/** Checks what a file claims to be a manifest against the schema. Throws LoadError with the first problems and their places. */
+export function parseManifest(url: string, source: string): Manifest {
+  let data: unknown;
+  try {
+    data = JSON.parse(source);
+  } catch {
+    throw new LoadError(url, text.error.notJson);
+  }
+  const version = (data as { version?: unknown } | null)?.version;
+  if (version !== undefined && version !== 1) throw new LoadError(url, text.error.otherVersion(version));
+  if (!validateManifest(data)) {
+    const problems = (validateManifest.errors ?? []).map((e) => `${e.instancePath || '/'} ${e.message ?? ''}`);
+    const shown = problems.slice(0, maxProblemsShown).join('; ');
+    throw new LoadError(url, text.error.schema(problems.length > maxProblemsShown ? `${shown}; …` : shown));
+  }
+  return data as Manifest;
+}
+
+/** A bake folder: its manifest, and the way to its files. */
+export class Bake {
+  private readonly sizes = new Map<string, number>();
+
+  constructor(
+    readonly manifest: Manifest,
+    readonly manifestUrl: string,
+  ) {
+    for (const file of manifest.files) this.sizes.set(file.name, file.bytes);
+  }
+
+  static async load(manifestUrl: string, onBytes: OnBytes): Promise<Bake> {
+    const bytes = await fetchBytes(manifestUrl, null, onBytes);
+    return new Bake(parseManifest(manifestUrl, new TextDecoder().decode(bytes)), manifestUrl);
+  }
+
+  url(uri: string): string {
+    return new URL(uri, this.manifestUrl).href;
+  }
+
+  /** Size by the manifest, or null when it lists no such file. */
+  bytesOf(uri: string): number | null {
+    return this.sizes.get(uri) ?? null;
+  }
+
+  instant(index: number): BakedInstant {
+    const instant = this.manifest.instants[index];
+    if (!instant) throw new RangeError(`instant ${index} of ${this.manifest.instants.length}`);
+    return instant;
+  }
+
+  /** Download size of an instant, or null when the manifest does not list all of its files. */
+  bytesOfInstant(index: number): number | null {
+    const instant = this.instant(index);
+    const uris = [instant.scales.uri, instant.sky.panorama.uri, ...instant.pages.flatMap((page) => [page.sky, page.sun])];
+    let sum = 0;
+    for (const uri of uris) {
+      const bytes = this.bytesOf(uri);
+      if (bytes === null) return null;
+      sum += bytes;
+    }
+    return sum;
+  }
+
+  fetch(uri: string, onBytes: OnBytes, signal?: AbortSignal): Promise<Uint8Array<ArrayBuffer>> {
+    return fetchBytes(this.url(uri), this.bytesOf(uri), onBytes, signal);
+  }
+
+  /** All files of an instant at once. Throws LoadError; rejects when `signal` aborts. */
+  async loadInstant(index: number, chartCount: number, onBytes: OnBytes, signal?: AbortSignal): Promise<InstantLight> {
+    const instant = this.instant(index);
+    const page = async (uri: string, pageIndex: number): Promise<EncodedPage> => {
+      const { width, height } = this.manifest.pages[pageIndex] ?? { width: 0, height: 0 };
+      return { url: this.url(uri), bytes: await this.fetch(uri, onBytes, signal), width, height };
+    };
+    const [scales, panorama, pages] = await Promise.all([
+      this.fetch(instant.scales.uri, onBytes, signal).then((bytes) => parseScales(this.url(instant.scales.uri), bytes, chartCount)),
+      this.fetch(instant.sky.panorama.uri, onBytes, signal).then((bytes) =>
+        Panorama.fromBytes(this.url(instant.sky.panorama.uri), bytes, instant.sky.panorama.width, instant.sky.panorama.height),
+      ),
+      Promise.all(
+        instant.pages.map(async (files, p) => {
+          const [sky, sun] = await Promise.all([page(files.sky, p), page(files.sun, p)]);
+          return { sky, sun };
+        }),
+      ),
+    ]);
+    return { scales, panorama, pages };
+  }
+}
+
+/** Little-endian float32, two a chart. */
+export function parseScales(url: string, bytes: Uint8Array<ArrayBuffer>, chartCount: number): Float32Array<ArrayBuffer> {
+  if (bytes.byteLength !== chartCount * 8) throw new LoadError(url, text.error.size(bytes.byteLength, chartCount * 8));
+  const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+  const scales = new Float32Array(chartCount * 2);
+  for (let i = 0; i < scales.length; ++i) scales[i] = view.getFloat32(4 * i, true);
+  return scales;
+}

@@ -1,0 +1,46 @@
+import { LoadError } from './load_error';
+import { text } from './text';
+
+/** Called as bytes arrive: how many since the last call. */
+export type OnBytes = (count: number) => void;
+
+/**
+ * The bytes of a file, streamed so that progress can be shown.
+ * @param expectedBytes size by the manifest, or null when unknown; another size means a damaged copy and is refused
+ * @throws LoadError with the address when the file is missing, unreachable or of another size
+ */
+export async function fetchBytes(url: string, expectedBytes: number | null, onBytes: OnBytes, signal?: AbortSignal): Promise<Uint8Array<ArrayBuffer>> {
+  let response: Response;
+  try {
+    response = await fetch(url, signal ? { signal } : {});
+  } catch (error) {
+    if (signal?.aborted) throw error;
+    throw new LoadError(url, text.error.unreachable);
+  }
+  if (!response.ok) throw new LoadError(url, text.error.missing(response.status));
+  const chunks: Uint8Array[] = [];
+  let size = 0;
+  try {
+    if (response.body) {
+      const reader = response.body.getReader();
+      for (;;) {
+        const { done, value } = await reader.read();
+        if (done) break;
+        chunks.push(value);
+        size += value.byteLength;
+        onBytes(value.byteLength);
+      }
+    }
+  } catch (error) {
+    if (signal?.aborted) throw error;
+    throw new LoadError(url, text.error.unreachable);
+  }
+  if (expectedBytes !== null && size !== expectedBytes) throw new LoadError(url, text.error.truncated(size, expectedBytes));
+  const bytes = new Uint8Array(size);
+  let offset = 0;
+  for (const chunk of chunks) {
+    bytes.set(chunk, offset);
+    offset += chunk.byteLength;
+  }
+  return bytes;
+}

@@ -1,0 +1,47 @@
+import { isMode, isPicture, type Mode, type Picture } from './pictures';
+import type { Vec3 } from './units';
+
+/** What a link restores. Positions are local world metres, z up. */
+export interface ViewState {
+  mode: Mode;
+  position: Vec3;
+  target: Vec3;
+  picture: Picture;
+  instant: number;
+  ev: number;
+}
+
+const metres = (v: Vec3) => v.map((c) => c.toFixed(2)).join(',');
+
+export function formatViewState(state: ViewState): string {
+  return `#v=1&m=${state.mode}&p=${metres(state.position)}&t=${metres(state.target)}&s=${state.picture}&i=${state.instant}&ev=${state.ev.toFixed(1)}`;
+}
+
+/** Reads what it understands and leaves out the rest: an old or hand-written link still opens the city. */
+export function parseViewState(hash: string): Partial<ViewState> {
+  const fields = new URLSearchParams(hash.replace(/^#/, ''));
+  if (fields.get('v') !== '1') return {};
+  const state: Partial<ViewState> = {};
+  const mode = fields.get('m');
+  if (isMode(mode)) state.mode = mode;
+  const picture = fields.get('s');
+  if (isPicture(picture)) state.picture = picture;
+  const position = parseVec3(fields.get('p'));
+  const target = parseVec3(fields.get('t'));
+  if (position && target) {
+    state.position = position;
+    state.target = target;
+  }
+  const instant = Number(fields.get('i') ?? NaN);
+  if (Number.isInteger(instant) && instant >= 0) state.instant = instant;
+  const ev = Number(fields.get('ev') ?? NaN);
+  if (Number.isFinite(ev)) state.ev = ev;
+  return state;
+}
+
+function parseVec3(field: string | null): Vec3 | null {
+  const parts = (field ?? '').split(',').map(Number);
+  const [x, y, z] = parts;
+  if (parts.length !== 3 || x === undefined || y === undefined || z === undefined) return null;
+  return parts.every((part) => Number.isFinite(part)) && field !== '' ? [x, y, z] : null;
+}

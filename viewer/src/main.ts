@@ -1,0 +1,16 @@
+import './ui/style.css';
+import { App } from './app';
+import { installTestHook } from './test_hook';
+import { showError } from './ui/notices';
+
+// `?antialias=off` halves the work of a software rasteriser.
+const isAntialiased = new URLSearchParams(location.search).get('antialias') !== 'off';
+
+try {
+  const app = new App(new URL('manifest.json', document.baseURI).href, isAntialiased);
+  const ready = app.start();
+  installTestHook(app, ready);
+  ready.catch(showError);
+} catch (error) {
+  showError(error);
+}

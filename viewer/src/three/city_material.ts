@@ -1,0 +1,177 @@
+import * as THREE from 'three';
+import type { Picture } from '../core/pictures';
+
+const pictureNumber: Record<Picture, number> = { lit: 0, textures: 1, light: 2 };
+
+/** Charts in a row of the texture of scales. */
+export const scalesWidth = 2048;
+
+/** Uniforms that all materials share by reference: a change is seen by all of them at the next frame. */
+export interface SharedUniforms {
+  [name: string]: THREE.IUniform;
+  uScales: THREE.IUniform<THREE.Texture | null>;
+  uSunKlx: THREE.IUniform<THREE.Vector3>;
+  uExposure: THREE.IUniform<number>;
+  uPicture: THREE.IUniform<number>;
+}
+
+/** The two lightmap textures of one page, shared by the materials that lie in it. */
+export interface PageUniforms {
+  uSkyPage: THREE.IUniform<THREE.Texture | null>;
+  uSunPage: THREE.IUniform<THREE.Texture | null>;
+  uPageSize: THREE.IUniform<THREE.Vector2>;
+}
+
+export function makeSharedUniforms(): SharedUniforms {
+  return {
+    uScales: { value: null },
+    uSunKlx: { value: new THREE.Vector3() },
+    uExposure: { value: 1 },
+    uPicture: { value: 0 },
+  };
+}
+
+export function setPicture(uniforms: SharedUniforms, picture: Picture): void {
+  uniforms.uPicture.value = pictureNumber[picture];
+}
+
+/**
+ * The end of both shaders, city and sky: exposure, tone mapping once, sRGB, and half a step of dither so that smooth skies and walls show
+ * no bands. toneMapping() and linearToOutputTexel() come from three for ShaderMaterials that are tone mapped.
+ */
+export const displayShader = /* glsl */ `
+uniform float uExposure;
+
+// Interleaved gradient noise (Jimenez 2014, "Next generation post processing in Call of Duty", slide 123), 0…1.
+float ditherNoise(vec2 pixel) {
+  return fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715))));
+}
+
+vec4 toDisplay(vec3 radiance) {
+  vec3 color = radiance * uExposure;
+  #ifdef TONE_MAPPING
+    color = toneMapping(color);
+  #endif
+  vec4 encoded = linearToOutputTexel(vec4(clamp(color, 0.0, 1.0), 1.0));
+  return vec4(encoded.rgb + (ditherNoise(gl_FragCoord.xy) - 0.5) / 255.0, 1.0);
+}
+`;
+
+const vertexShader = /* glsl */ `
+in vec2 uv1;
+in float _chart;
+uniform highp sampler2D uScales;
+uniform mat3 uMapTransform;
+out vec2 vUv;
+out vec2 vLightUv;
+flat out vec2 vScale;
+#ifdef USE_COLOR
+out vec3 vTint;
+#endif
+
+void main() {
+  #ifdef USE_MAP
+    vUv = (uMapTransform * vec3(uv, 1.0)).xy;
+  #else
+    vUv = vec2(0.0);
+  #endif
+  #ifdef USE_COLOR
+    vTint = color.rgb;
+  #endif
+  vLightUv = uv1;
+  int chart = int(_chart + 0.5);
+  vScale = texelFetch(uScales, ivec2(chart % ${scalesWidth}, chart / ${scalesWidth}), 0).rg;
+  gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+}
+`;
+
+// E [klx] = sky page (sRGB decoded by the hardware, before it filters) × the chart's sky scale
+//         + sun page × the chart's sun scale × the beam's normal illuminance;  L [kcd/m²] = albedo/π × E.
+// The gutter about a chart is two texels wide: level 1 of the mip chain is the last one whose bilinear footprint stays inside it.
+const fragmentShader = /* glsl */ `
+in vec2 vUv;
+in vec2 vLightUv;
+flat in vec2 vScale;
+#ifdef USE_COLOR
+in vec3 vTint;
+#endif
+uniform sampler2D uSkyPage;
+uniform sampler2D uSunPage;
+uniform vec2 uPageSize;
+uniform vec3 uSunKlx;
+uniform vec3 uBaseColor;
+uniform int uPicture;
+#ifdef USE_MAP
+uniform sampler2D uMap;
+#endif
+#ifdef USE_ALPHA_CUTOFF
+uniform float uAlphaCutoff;
+uniform float uBaseAlpha;
+#endif
+layout(location = 0) out vec4 outColor;
+${displayShader}
+
+void main() {
+  vec3 albedo = uBaseColor;
+  #ifdef USE_MAP
+    vec4 texel = texture(uMap, vUv);
+    albedo *= texel.rgb;
+    #ifdef USE_ALPHA_CUTOFF
+      if (texel.a * uBaseAlpha < uAlphaCutoff) discard;
+    #endif
+  #endif
+  #ifdef USE_COLOR
+    albedo *= vTint;
+  #endif
+  if (uPicture == ${pictureNumber.textures}) {
+    outColor = linearToOutputTexel(vec4(albedo, 1.0));
+    return;
+  }
+  if (uPicture == ${pictureNumber.light}) albedo = vec3(1.0);
+  vec2 dx = dFdx(vLightUv) * uPageSize;
+  vec2 dy = dFdy(vLightUv) * uPageSize;
+  float level = clamp(0.5 * log2(max(max(dot(dx, dx), dot(dy, dy)), 1e-8)), 0.0, 1.0);
+  vec3 sky = textureLod(uSkyPage, vLightUv, level).rgb * vScale.x;
+  float sunCosine = textureLod(uSunPage, vLightUv, level).r * vScale.y;
+  vec3 illuminance = sky + sunCosine * uSunKlx;
+  outColor = toDisplay(albedo * illuminance * RECIPROCAL_PI);
+}
+`;
+
+/** What a glTF material tells about itself, as far as a baked Lambertian surface needs it. */
+export interface SurfaceLook {
+  name: string;
+  map: THREE.Texture | null;
+  baseColor: THREE.Color;
+  baseAlpha: number;
+  alphaCutoff: number | null;
+  isDoubleSided: boolean;
+  hasVertexColors: boolean;
+}
+
+export function makeCityMaterial(look: SurfaceLook, page: PageUniforms, shared: SharedUniforms): THREE.ShaderMaterial {
+  const defines: Record<string, string> = {};
+  // RECIPROCAL_PI and toneMapping need <common>-style definitions that three prepends only in part.
+  defines['RECIPROCAL_PI'] = '0.3183098861837907';
+  if (look.map) defines['USE_MAP'] = '';
+  if (look.map && look.alphaCutoff !== null) defines['USE_ALPHA_CUTOFF'] = '';
+  look.map?.updateMatrix();
+  return new THREE.ShaderMaterial({
+    name: look.name,
+    glslVersion: THREE.GLSL3,
+    defines,
+    uniforms: {
+      ...shared,
+      ...page,
+      uBaseColor: { value: look.baseColor },
+      uBaseAlpha: { value: look.baseAlpha },
+      uAlphaCutoff: { value: look.alphaCutoff ?? 0 },
+      uMap: { value: look.map },
+      uMapTransform: { value: look.map?.matrix ?? new THREE.Matrix3() },
+    },
+    vertexShader,
+    fragmentShader,
+    side: look.isDoubleSided ? THREE.DoubleSide : THREE.FrontSide,
+    vertexColors: look.hasVertexColors,
+  });
+}

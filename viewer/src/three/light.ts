@@ -1,0 +1,91 @@
+import * as THREE from 'three';
+import type { BakedInstant, EncodedPage, InstantLight } from '../core/bake';
+import { LoadError } from '../core/load_error';
+import { text } from '../core/text';
+import type { PageUniforms, SharedUniforms } from './city_material';
+import { scalesWidth } from './city_material';
+
+/** The textures of one instant on the graphics card; dispose() gives their memory back. */
+export interface LightTextures {
+  scales: THREE.DataTexture;
+  pages: { sky: THREE.Texture; sun: THREE.Texture }[];
+  panorama: THREE.DataTexture;
+  dispose(): void;
+}
+
+/** Decodes the pages of an instant. Throws LoadError when a page is not the picture that the manifest announces. */
+export async function makeLightTextures(light: InstantLight): Promise<LightTextures> {
+  const pages = await Promise.all(
+    light.pages.map(async ({ sky, sun }) => {
+      const [skyTexture, sunTexture] = await Promise.all([decodePage(sky), decodePage(sun)]);
+      skyTexture.colorSpace = THREE.SRGBColorSpace;
+      sunTexture.colorSpace = THREE.NoColorSpace;
+      sunTexture.format = THREE.RedFormat;
+      return { sky: skyTexture, sun: sunTexture };
+    }),
+  );
+  const scales = makeScalesTexture(light.scales);
+  const { width, height, halves } = light.panorama;
+  const panorama = new THREE.DataTexture(halves, width, height, THREE.RGBAFormat, THREE.HalfFloatType);
+  panorama.minFilter = THREE.LinearFilter;
+  panorama.magFilter = THREE.LinearFilter;
+  panorama.wrapS = THREE.RepeatWrapping;
+  panorama.wrapT = THREE.ClampToEdgeWrapping;
+  panorama.needsUpdate = true;
+  return {
+    scales,
+    pages,
+    panorama,
+    dispose() {
+      scales.dispose();
+      panorama.dispose();
+      for (const { sky, sun } of pages) {
+        sky.dispose();
+        sun.dispose();
+      }
+    },
+  };
+}
+
+/** Puts an instant's light into the uniforms that the city's materials share. */
+export function applyLight(textures: LightTextures, instant: BakedInstant, shared: SharedUniforms, pages: readonly PageUniforms[]): void {
+  shared.uScales.value = textures.scales;
+  shared.uSunKlx.value.fromArray(instant.sun.normal_illuminance_klx);
+  pages.forEach((page, p) => {
+    page.uSkyPage.value = textures.pages[p]?.sky ?? null;
+    page.uSunPage.value = textures.pages[p]?.sun ?? null;
+  });
+}
+
+async function decodePage(page: EncodedPage): Promise<THREE.Texture> {
+  let bitmap: ImageBitmap;
+  try {
+    // Neither colour management nor premultiplication may touch the numbers: they are light, not a photograph.
+    bitmap = await createImageBitmap(new Blob([page.bytes], { type: 'image/png' }), { premultiplyAlpha: 'none', colorSpaceConversion: 'none' });
+  } catch {
+    throw new LoadError(page.url, text.error.notAPicture);
+  }
+  if (bitmap.width !== page.width || bitmap.height !== page.height) {
+    throw new LoadError(page.url, text.error.pageSize(`${bitmap.width} × ${bitmap.height}`, `${page.width} × ${page.height}`));
+  }
+  const texture = new THREE.Texture(bitmap);
+  texture.flipY = false;
+  texture.minFilter = THREE.LinearMipmapLinearFilter; // the shader keeps to levels 0 and 1
+  texture.magFilter = THREE.LinearFilter;
+  texture.generateMipmaps = true;
+  texture.needsUpdate = true;
+  texture.onUpdate = () => bitmap.close(); // the card has its copy
+  return texture;
+}
+
+function makeScalesTexture(scales: Float32Array<ArrayBuffer>): THREE.DataTexture {
+  const charts = scales.length / 2;
+  const height = Math.max(1, Math.ceil(charts / scalesWidth));
+  const padded = new Float32Array(scalesWidth * height * 2);
+  padded.set(scales);
+  const texture = new THREE.DataTexture(padded, scalesWidth, height, THREE.RGFormat, THREE.FloatType);
+  texture.minFilter = THREE.NearestFilter;
+  texture.magFilter = THREE.NearestFilter;
+  texture.needsUpdate = true;
+  return texture;
+}

@@ -1,0 +1,128 @@
+import * as THREE from 'three';
+import type { BakedInstant } from '../core/bake';
+import { groundRadiance, type Panorama } from '../core/panorama';
+import { displayShader, type SharedUniforms } from './city_material';
+
+const vertexShader = /* glsl */ `
+uniform mat4 uClipToWorld;
+out vec3 vRay;
+void main() {
+  // A triangle that covers the picture, at the far plane: only what the city leaves free is shaded.
+  vec2 corner = position.xy;
+  vec4 near = uClipToWorld * vec4(corner, -1.0, 1.0);
+  vec4 far = uClipToWorld * vec4(corner, 1.0, 1.0);
+  vRay = far.xyz / far.w - near.xyz / near.w;
+  gl_Position = vec4(corner, 1.0, 1.0);
+}
+`;
+
+const fragmentShader = /* glsl */ `
+in vec3 vRay;
+uniform sampler2D uPanorama;
+uniform vec3 uSunDirection;
+uniform vec3 uSunKlx;
+uniform vec3 uGround;
+uniform vec3 uHorizon;
+uniform float uSunRadius;
+uniform bool uHasSun;
+uniform float uPanoramaHeight;
+uniform int uPicture;
+layout(location = 0) out vec4 outColor;
+${displayShader}
+
+const float kPi = 3.141592653589793;
+
+void main() {
+  vec3 direction = normalize(vRay);
+  if (uPicture == 1) { // textures alone: paper behind them, no light
+    float shade = mix(0.62, 0.82, smoothstep(-0.3, 0.6, direction.y));
+    vec4 paper = linearToOutputTexel(vec4(vec3(shade) * vec3(0.93, 0.96, 1.0), 1.0));
+    outColor = vec4(paper.rgb + (ditherNoise(gl_FragCoord.xy) - 0.5) / 255.0, 1.0);
+    return;
+  }
+  // Scene: x east, y up, z south. Azimuth runs clockwise from grid north; row 0 of the panorama is the zenith.
+  float elevation = asin(clamp(direction.y, -1.0, 1.0));
+  float azimuth = atan(direction.x, -direction.z);
+  // The lowest row's centre stands half a row above the horizon; gradients are taken of the ray, so that the seam at azimuth 0 stays sharp.
+  float row = clamp(1.0 - elevation / (0.5 * kPi), 0.5 / uPanoramaHeight, 1.0 - 0.5 / uPanoramaHeight);
+  vec3 sky = textureLod(uPanorama, vec2(azimuth / (2.0 * kPi), row), 0.0).rgb;
+
+  // Below the horizon far land lies under haze: it fades from the sky's own horizon into sunlit ground within a few degrees.
+  float below = max(0.0, -elevation);
+  vec3 radiance = mix(uGround, mix(sky, uHorizon, 0.35 * smoothstep(0.0, 0.02, below)), exp(-below / 0.055));
+
+  if (uHasSun) {
+    float angle = acos(clamp(dot(direction, uSunDirection), -1.0, 1.0));
+    float pixel = max(length(fwidth(direction)), 1e-5);
+    // Half the beam within the disc would already be white; the disc keeps its true radius, softened over one pixel.
+    float disc = (1.0 - smoothstep(uSunRadius - 0.5 * pixel, uSunRadius + 0.5 * pixel, angle)) * smoothstep(-0.001, 0.001, elevation);
+    vec3 discRadiance = uSunKlx / (kPi * uSunRadius * uSunRadius);
+    // Forward scatter of the eye and of haze about the sun; strength and width by eye, well below the sky's own aureole from 5° on.
+    vec3 glow = uSunKlx * (0.6 * exp(-angle / 0.012) + 0.05 * exp(-angle / 0.06)) * smoothstep(-0.02, 0.01, elevation);
+    radiance += disc * discRadiance + glow;
+  }
+  // Half-float targets and the tone mapper's logarithm stay finite.
+  outColor = toDisplay(min(radiance, vec3(6.0e4)));
+}
+`;
+
+/** The sky that the bake's light came from, with the sun's disc in its true size. */
+export class SkyDome {
+  readonly mesh: THREE.Mesh<THREE.BufferGeometry, THREE.ShaderMaterial>;
+  private readonly clipToWorld = new THREE.Matrix4();
+
+  constructor(shared: SharedUniforms) {
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute('position', new THREE.BufferAttribute(new Float32Array([-1, -1, 0, 3, -1, 0, -1, 3, 0]), 3));
+    const material = new THREE.ShaderMaterial({
+      name: 'sky',
+      glslVersion: THREE.GLSL3,
+      uniforms: {
+        uExposure: shared.uExposure,
+        uPicture: shared.uPicture,
+        uSunKlx: shared.uSunKlx,
+        uClipToWorld: { value: this.clipToWorld },
+        uPanorama: { value: null },
+        uPanoramaHeight: { value: 1 },
+        uSunDirection: { value: new THREE.Vector3(0, 1, 0) },
+        uSunRadius: { value: 0.00465 },
+        uHasSun: { value: false },
+        uGround: { value: new THREE.Vector3() },
+        uHorizon: { value: new THREE.Vector3() },
+      },
+      vertexShader,
+      fragmentShader,
+      depthWrite: false,
+      depthFunc: THREE.LessEqualDepth,
+    });
+    this.mesh = new THREE.Mesh(geometry, material);
+    this.mesh.frustumCulled = false;
+    this.mesh.matrixAutoUpdate = false;
+    this.mesh.renderOrder = 1; // after the city
+    this.mesh.onBeforeRender = (_renderer, _scene, camera) => {
+      this.clipToWorld.multiplyMatrices(camera.matrixWorld, camera.projectionMatrixInverse);
+    };
+  }
+
+  apply(texture: THREE.DataTexture, panorama: Panorama, instant: BakedInstant): void {
+    const uniforms = this.mesh.material.uniforms;
+    const { sun } = instant;
+    const set = (name: string, value: unknown) => {
+      const uniform = uniforms[name];
+      if (uniform) uniform.value = value;
+    };
+    const [east, north, up] = sun.direction;
+    set('uPanorama', texture);
+    set('uPanoramaHeight', panorama.height);
+    set('uSunDirection', new THREE.Vector3(east, up, -north).normalize());
+    set('uSunRadius', THREE.MathUtils.degToRad(sun.angular_radius_deg));
+    set('uHasSun', sun.shape !== 'none' && sun.normal_illuminance_klx.some((klx) => klx > 0));
+    set('uGround', new THREE.Vector3(...groundRadiance(panorama.horizontalIlluminance(), sun.normal_illuminance_klx, up)));
+    set('uHorizon', new THREE.Vector3(...panorama.horizonMean()));
+  }
+
+  dispose(): void {
+    this.mesh.geometry.dispose();
+    this.mesh.material.dispose();
+  }
+}

@@ -1,0 +1,142 @@
+import { evRange } from '../core/exposure';
+import { modes, pictures, type Mode, type Picture } from '../core/pictures';
+import { text } from '../core/text';
+import { element } from './element';
+
+export interface PanelActions {
+  instant(index: number): void;
+  picture(picture: Picture): void;
+  mode(mode: Mode): void;
+  view(index: number): void;
+  ev(ev: number): void;
+}
+
+export interface PanelState {
+  instant: number;
+  picture: Picture;
+  mode: Mode;
+  ev: number;
+  exposure: number;
+}
+
+export interface PanelContent {
+  title: string;
+  instants: readonly string[];
+  views: readonly string[];
+  texelM: number;
+}
+
+/** The settings, as plain labelled HTML. It shows what it is told; it decides nothing. */
+export class Panel {
+  readonly root: HTMLElement;
+  readonly opener: HTMLButtonElement;
+  private readonly instantSelect: HTMLSelectElement;
+  private readonly instantSlider: HTMLInputElement;
+  private readonly earlier: HTMLButtonElement;
+  private readonly later: HTMLButtonElement;
+  private readonly pictureButtons = new Map<Picture, HTMLButtonElement>();
+  private readonly modeButtons = new Map<Mode, HTMLButtonElement>();
+  private readonly viewSelect: HTMLSelectElement;
+  private readonly evSlider: HTMLInputElement;
+  private readonly evLabel: HTMLElement;
+  private readonly sunNote: HTMLElement;
+  private shownInstant = 0;
+
+  constructor(content: PanelContent, actions: PanelActions) {
+    const last = content.instants.length - 1;
+    this.instantSelect = element('select', { id: 'instant' }, content.instants.map((label, i) => element('option', { value: String(i) }, [label])));
+    this.instantSelect.addEventListener('change', () => actions.instant(Number(this.instantSelect.value)));
+    this.instantSlider = element('input', { type: 'range', min: '0', max: String(last), step: '1', 'aria-label': text.instantSlider });
+    this.instantSlider.addEventListener('input', () => actions.instant(Number(this.instantSlider.value)));
+    this.earlier = element('button', { type: 'button', 'aria-label': text.previousInstant, title: `${text.previousInstant} (,)` }, ['‹']);
+    this.later = element('button', { type: 'button', 'aria-label': text.nextInstant, title: `${text.nextInstant} (.)` }, ['›']);
+    this.earlier.addEventListener('click', () => actions.instant(Math.max(0, this.shownInstant - 1)));
+    this.later.addEventListener('click', () => actions.instant(Math.min(last, this.shownInstant + 1)));
+    this.sunNote = element('p', { class: 'note' });
+
+    const pictureGroup = element('div', { class: 'group' }, pictures.map((picture, i) => {
+      const button = element('button', { type: 'button', title: `${text.pictureHints[picture]} (${i + 1})` }, [text.pictures[picture]]);
+      button.addEventListener('click', () => actions.picture(picture));
+      this.pictureButtons.set(picture, button);
+      return button;
+    }));
+    const modeGroup = element('div', { class: 'group' }, modes.map((mode) => {
+      const button = element('button', { type: 'button', title: `${text.modeHints[mode]} (${mode === 'orbit' ? 'O' : 'P'})` }, [text.modes[mode]]);
+      button.addEventListener('click', () => actions.mode(mode));
+      this.modeButtons.set(mode, button);
+      return button;
+    }));
+
+    this.viewSelect = element('select', { id: 'view' }, [
+      element('option', { value: '', disabled: '' }, [text.freeView]),
+      ...content.views.map((name, i) => element('option', { value: String(i) }, [name])),
+    ]);
+    this.viewSelect.addEventListener('change', () => actions.view(Number(this.viewSelect.value)));
+
+    this.evSlider = element('input', { type: 'range', id: 'ev', min: String(evRange.min), max: String(evRange.max), step: String(evRange.step) });
+    this.evSlider.addEventListener('input', () => actions.ev(Number(this.evSlider.value)));
+    this.evLabel = element('span', { class: 'label' });
+    const evReset = element('button', { type: 'button' }, [text.exposureReset]);
+    evReset.addEventListener('click', () => actions.ev(0));
+
+    const hide = element('button', { type: 'button', title: `${text.hidePanel} (H)` }, [text.hidePanel]);
+    hide.addEventListener('click', () => this.show(false));
+    this.opener = element('button', { type: 'button', class: 'open-panel', hidden: '' }, [text.showPanel]);
+    this.opener.addEventListener('click', () => this.show(true));
+
+    const instantFields = [
+      element('label', { for: 'instant' }, [text.instant]),
+      element('div', { class: 'row' }, last > 0 ? [this.earlier, this.instantSelect, this.later] : [this.instantSelect]),
+    ];
+    this.root = element('section', { class: 'panel', 'aria-label': text.panelLabel }, [
+      element('header', {}, [element('h1', {}, [content.title]), hide]),
+      element('div', { class: 'field' }, last > 0 ? [...instantFields, this.instantSlider] : instantFields),
+      this.sunNote,
+      element('fieldset', { class: 'field' }, [element('legend', {}, [text.picture]), pictureGroup]),
+      element('fieldset', { class: 'field' }, [element('legend', {}, [text.navigation]), modeGroup]),
+      element('div', { class: 'field' }, [element('label', { for: 'view' }, [text.views]), this.viewSelect]),
+      element('div', { class: 'field' }, [
+        element('label', { for: 'ev' }, [text.exposure]),
+        element('div', { class: 'row' }, [this.evSlider, evReset]),
+        this.evLabel,
+      ]),
+      element('p', { class: 'note' }, [text.baked(content.texelM)]),
+    ]);
+  }
+
+  show(isShown: boolean): void {
+    const hadFocus = this.root.contains(document.activeElement) || document.activeElement === this.opener;
+    this.root.hidden = !isShown;
+    this.opener.hidden = isShown;
+    if (hadFocus) (isShown ? this.instantSelect : this.opener).focus();
+  }
+
+  get isShown(): boolean {
+    return !this.root.hidden;
+  }
+
+  update(state: PanelState): void {
+    this.shownInstant = state.instant;
+    this.instantSelect.value = String(state.instant);
+    this.instantSlider.value = String(state.instant);
+    this.instantSlider.setAttribute('aria-valuetext', this.instantSelect.selectedOptions[0]?.text ?? '');
+    this.earlier.disabled = state.instant <= 0;
+    this.later.disabled = state.instant >= this.instantSelect.options.length - 1;
+    for (const [picture, button] of this.pictureButtons) button.setAttribute('aria-pressed', String(picture === state.picture));
+    for (const [mode, button] of this.modeButtons) button.setAttribute('aria-pressed', String(mode === state.mode));
+    const isExposed = state.picture !== 'textures';
+    this.evSlider.value = String(state.ev);
+    this.evSlider.disabled = !isExposed;
+    this.evLabel.textContent = isExposed ? text.exposureValue(state.ev, state.exposure) : text.exposureUnused;
+    this.evSlider.setAttribute('aria-valuetext', this.evLabel.textContent);
+  }
+
+  /** Marks the view that is shown, or none when the user moved on by themselves. */
+  showView(index: number | null): void {
+    this.viewSelect.value = index === null ? '' : String(index);
+  }
+
+  showSun(note: string): void {
+    this.sunNote.textContent = note;
+  }
+}

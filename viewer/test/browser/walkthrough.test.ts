@@ -1,0 +1,337 @@
+// The built walkthrough in Chromium. Pixels are compared in the canvas, so fonts and panel do not matter.
+import fs from 'node:fs';
+import os from 'node:os';
+import path from 'node:path';
+import { fileURLToPath } from 'node:url';
+import type { Browser, Page } from 'playwright-core';
+import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+import type { TestHook } from '../../src/test_hook';
+import { srgbEncode } from '../../src/core/units';
+import { findChromium, launch, openPage } from '../support/chromium';
+import { fixtureBeam, fixtureInstants, whiteCard, writeFixture } from '../support/fixture';
+import { decodePng, encodePng } from '../support/png';
+import { serve, type Host } from '../support/static_host';
+
+const here = path.dirname(fileURLToPath(import.meta.url));
+const dist = path.join(here, '../../dist');
+const goldenFolder = path.join(here, '../golden');
+const outFolder = path.join(here, '../out');
+const size = { width: 480, height: 270 };
+const chromium = findChromium();
+const built = fs.existsSync(path.join(dist, 'index.html'));
+if (!chromium) console.warn('browser tests are skipped: no Chromium found (apt-get install chromium, or set SKYBAKE_CHROMIUM)');
+if (!built) throw new Error('viewer/dist is absent: run npm run build first');
+
+declare global {
+  interface Window {
+    skybake?: TestHook;
+  }
+}
+
+async function whenReady(page: Page, url: string): Promise<void> {
+  await page.goto(url);
+  await page.waitForFunction(() => window.skybake !== undefined);
+  await page.evaluate(() => window.skybake!.ready);
+}
+
+async function canvas(page: Page, width: number, height: number): Promise<Uint8Array> {
+  // As text: an array of numbers would take seconds through the protocol.
+  const encoded = await page.evaluate(([w, h]) => {
+    let bytes = '';
+    for (const value of window.skybake!.readPixels(0, 0, w!, h!)) bytes += String.fromCharCode(value);
+    return btoa(bytes);
+  }, [width, height]);
+  const rgba = Buffer.from(encoded, 'base64');
+  const rgb = new Uint8Array(width * height * 3);
+  for (let i = 0; i < width * height; ++i) rgb.set([rgba[4 * i]!, rgba[4 * i + 1]!, rgba[4 * i + 2]!], 3 * i);
+  return rgb;
+}
+
+/** Share of the pixels where a channel differs by more than 6 of 255: rounding of other Chromium versions stays below, a wrong light does not. */
+function differingShare(a: Uint8Array, b: Uint8Array): number {
+  let count = 0;
+  for (let i = 0; i < a.length; i += 3) {
+    if ([0, 1, 2].some((c) => Math.abs(a[i + c]! - b[i + c]!) > 6)) ++count;
+  }
+  return count / (a.length / 3);
+}
+
+const meanOf = (pixels: Uint8Array) => pixels.reduce((sum, value) => sum + value, 0) / pixels.length;
+
+describe.skipIf(!chromium)('the walkthrough of the synthetic bake', () => {
+  let browser: Browser;
+  let folder: string;
+  let host: Host;
+  let page: Page;
+  let problems: string[];
+
+  beforeAll(async () => {
+    folder = fs.mkdtempSync(path.join(os.tmpdir(), 'skybake-viewer-'));
+    writeFixture(folder);
+    host = await serve([dist, folder]);
+    browser = await launch(chromium!);
+    ({ page, problems } = await openPage(browser, size));
+    await whenReady(page, `${host.url}?antialias=off`);
+  });
+
+  afterAll(async () => {
+    await browser?.close();
+    await host?.close();
+    fs.rmSync(folder, { recursive: true, force: true });
+  });
+
+  test('a white wall of known light gives the pixel that paper and pencil give', async () => {
+    const [x, y, z] = whiteCard.center;
+    await page.evaluate(([cx, cy, cz]) => {
+      window.skybake!.setToneMapping('none');
+      window.skybake!.setPicture('lit');
+      window.skybake!.setCamera([cx!, cy! - 3, cz!], [cx!, cy!, cz!]);
+    }, [x, y, z]);
+    const exposure = await page.evaluate(() => {
+      window.skybake!.setExposure(-2.5); // bright light, but below the clip
+      return window.skybake!.exposure();
+    });
+    const block = 16;
+    const pixels = await page.evaluate(([px, py, n]) => window.skybake!.readPixels(px!, py!, n!, n!), [size.width / 2 - 8, size.height / 2 - 8, block]);
+    await page.evaluate(() => {
+      window.skybake!.setToneMapping('agx');
+      window.skybake!.setExposure(0);
+    });
+    for (let c = 0; c < 3; ++c) {
+      // L = (E_sky + cos·E_sun) / π for albedo 1, then exposure, sRGB, 8 bit.
+      const illuminance = whiteCard.skyKlx[c]! + whiteCard.sunCosine * fixtureBeam[c]!;
+      const expected = 255 * srgbEncode((illuminance / Math.PI) * exposure);
+      expect(expected).toBeLessThan(250);
+      expect(expected).toBeGreaterThan(60);
+      let mean = 0;
+      for (let i = 0; i < block * block; ++i) {
+        const value = pixels[4 * i + c]!;
+        expect(Math.abs(value - expected)).toBeLessThanOrEqual(1.5); // half a step of rounding and half a step of dither on top of the one
+        mean += value / (block * block);
+      }
+      expect(Math.abs(mean - expected)).toBeLessThanOrEqual(1);
+    }
+  });
+
+  test.each([
+    ['birds-eye', 0, 'lit'],
+    ['birds-eye-evening', 1, 'lit'],
+    ['birds-eye-textures', 0, 'textures'],
+    ['birds-eye-light', 0, 'light'],
+  ] as const)('the picture “%s” is the golden one', async (name, instant, picture) => {
+    await page.evaluate(async ([i, p]) => {
+      await window.skybake!.setInstant(i);
+      window.skybake!.setPicture(p);
+      window.skybake!.setCamera([70, -85, 55], [0, 0, 4]);
+    }, [instant, picture] as const);
+    await compareWithGolden(name, await canvas(page, size.width, size.height));
+  });
+
+  test('the street picture is the golden one', async () => {
+    await page.evaluate(async () => {
+      await window.skybake!.setInstant(0);
+      window.skybake!.setPicture('lit');
+      window.skybake!.walkFrom([-8, -34, 1.7], [4, 10, 5]);
+    });
+    await compareWithGolden('street', await canvas(page, size.width, size.height));
+  });
+
+  test('a walk keeps the eye at 1.7 m, is stopped by a wall and by the end of the world', async () => {
+    const walked = await page.evaluate(() => {
+      const hook = window.skybake!;
+      hook.walkFrom([15, 0, 1.7], [15, 20, 1.7]); // the second house's south wall stands at y = 10
+      hook.walk(1, 0, 50);
+      const atWall = hook.view().position;
+      hook.walkFrom([-50, 0, 1.7], [-60, 0, 1.7]); // the ground ends at x = −60
+      hook.walk(1, 0, 50);
+      return { atWall, atEnd: hook.view().position, mode: hook.view().mode };
+    });
+    expect(walked.mode).toBe('walk');
+    expect(walked.atWall[2]).toBeCloseTo(1.7, 3);
+    expect(walked.atWall[1]).toBeGreaterThan(9);
+    expect(walked.atWall[1]).toBeLessThanOrEqual(9.65);
+    expect(walked.atEnd[2]).toBeCloseTo(1.7, 3);
+    expect(walked.atEnd[0]).toBeGreaterThanOrEqual(-60);
+    expect(walked.atEnd[0]).toBeLessThan(-59);
+  });
+
+  test('a default walk begins outdoors on the ground', async () => {
+    const { mode, position } = await page.evaluate(() => {
+      const hook = window.skybake!;
+      hook.setCamera([70, -85, 55], [-23, 18, 0]); // looking at the first house: its roof and its inside are no place to stand
+      hook.setMode('walk');
+      return hook.view();
+    });
+    expect(mode).toBe('walk');
+    expect(position[2]).toBeCloseTo(1.7, 3);
+    const isInside = position[0] > -32 && position[0] < -14 && position[1] > 6 && position[1] < 30;
+    expect(isInside).toBe(false);
+    // Nearest to the house, not anywhere: within twenty metres of its walls.
+    expect(Math.hypot(position[0] + 23, position[1] - 18)).toBeLessThan(35);
+  });
+
+  test('keys walk with the passing of time', async () => {
+    await page.evaluate(() => window.skybake!.walkFrom([-8, -40, 1.7], [-8, 0, 1.7]));
+    await page.locator('canvas').focus();
+    await page.keyboard.down('KeyW');
+    await page.waitForFunction(() => window.skybake!.view().position[1] > -39.5);
+    await page.keyboard.up('KeyW');
+    const stopped = await page.evaluate(() => window.skybake!.view().position[1]);
+    await page.waitForTimeout(200);
+    expect(await page.evaluate(() => window.skybake!.view().position[1])).toBe(stopped);
+  });
+
+  test('instants switch through the list, and the light of the old one is freed', async () => {
+    await page.evaluate(async () => {
+      await window.skybake!.setInstant(0);
+      window.skybake!.setCamera([70, -85, 55], [0, 0, 4]);
+      window.skybake!.renderFrame();
+    });
+    const before = await page.evaluate(() => window.skybake!.stats().textures);
+    const morning = await canvas(page, size.width, size.height);
+    await page.locator('#instant').selectOption('1');
+    await page.waitForFunction(() => window.skybake!.view().instant === 1);
+    const evening = await canvas(page, size.width, size.height);
+    expect(differingShare(morning, evening)).toBeGreaterThan(0.3);
+    for (let round = 0; round < 4; ++round) {
+      for (let i = 0; i < fixtureInstants; ++i) {
+        await page.evaluate(async (index) => {
+          await window.skybake!.setInstant(index);
+          window.skybake!.renderFrame();
+        }, i);
+      }
+    }
+    expect(await page.evaluate(() => window.skybake!.stats().textures)).toBe(before);
+    await page.evaluate(() => window.skybake!.setInstant(0));
+    expect(differingShare(morning, await canvas(page, size.width, size.height))).toBe(0);
+  });
+
+  test('buttons and keys switch the three pictures and the exposure', async () => {
+    await page.locator('canvas').focus();
+    for (const [key, picture] of [['2', 'textures'], ['3', 'light'], ['1', 'lit']] as const) {
+      await page.keyboard.press(key);
+      expect(await page.evaluate(() => window.skybake!.view().picture)).toBe(picture);
+    }
+    await page.getByRole('button', { name: 'Textures' }).click();
+    expect(await page.evaluate(() => window.skybake!.view().picture)).toBe('textures');
+    await page.getByRole('button', { name: 'Lit' }).click();
+    const normal = meanOf(await canvas(page, size.width, size.height));
+    await page.locator('canvas').focus();
+    await page.keyboard.press('-');
+    await page.keyboard.press('-');
+    expect(meanOf(await canvas(page, size.width, size.height))).toBeLessThan(0.9 * normal);
+    await page.getByRole('button', { name: 'Auto' }).click();
+    expect(meanOf(await canvas(page, size.width, size.height))).toBeCloseTo(normal, 6);
+  });
+
+  test('nothing is drawn while nothing changes', async () => {
+    await page.waitForTimeout(300);
+    const before = await page.evaluate(() => window.skybake!.stats().frames);
+    await page.waitForTimeout(500);
+    expect(await page.evaluate(() => window.skybake!.stats().frames)).toBe(before);
+  });
+
+  test('the link restores place, picture and instant', async () => {
+    await page.evaluate(async () => {
+      await window.skybake!.setInstant(1);
+      window.skybake!.setPicture('light');
+      window.skybake!.walkFrom([-8, -34, 1.7], [4, 10, 5]);
+    });
+    const sent = await page.evaluate(() => window.skybake!.view());
+    await page.waitForTimeout(500);
+    const link = page.url();
+    const opened = await openPage(browser, size);
+    await whenReady(opened.page, link);
+    const got = await opened.page.evaluate(() => window.skybake!.view());
+    expect(opened.problems).toEqual([]);
+    await opened.page.close();
+    expect(got).toMatchObject({ mode: 'walk', picture: 'light', instant: 1 });
+    for (let c = 0; c < 3; ++c) expect(got.position[c]).toBeCloseTo(sent.position[c]!, 1);
+    await page.evaluate(async () => {
+      await window.skybake!.setInstant(0);
+      window.skybake!.setPicture('lit');
+    });
+  });
+
+  test('the console stayed clean', () => {
+    expect(problems).toEqual([]);
+  });
+
+  test.each([
+    ['light/i0_p1_sky.png', null, 'no such file'],
+    ['city.glb', null, 'no such file'],
+    ['manifest.json', null, 'no such file'],
+    ['manifest.json', '{"format": "skybake-bake", "version": 1}', 'schema'],
+    ['manifest.json', '{"format": "skybake-bake", "version": 7}', 'version 7'],
+    ['manifest.json', 'PK\u0003', 'not JSON'],
+    ['light/i0_scales.bin', 'short', 'bytes'],
+  ] as const)('%s missing or broken (%s) is told with its address', async (name, content, words) => {
+    const broken = await serve([dist, folder], (asked, bytes) => (asked === name ? (content === null ? null : Buffer.from(content)) : bytes));
+    const opened = await openPage(browser, size);
+    try {
+      await opened.page.goto(broken.url);
+      const alert = opened.page.getByRole('alert');
+      await alert.waitFor();
+      expect(await alert.textContent()).toContain(words);
+      expect(await alert.textContent()).toContain(broken.url + name);
+    } finally {
+      await opened.page.close();
+      await broken.close();
+    }
+  });
+});
+
+const bake = process.env['SKYBAKE_BAKE'];
+describe.skipIf(!chromium || !bake)('the walkthrough of the bake that was given', () => {
+  test('loads, walks, switches pictures and instants without a complaint', async () => {
+    const host = await serve([bake!, dist]);
+    const browser = await launch(chromium!);
+    try {
+      const { page, problems } = await openPage(browser, size);
+      await whenReady(page, `${host.url}?antialias=off`);
+      fs.mkdirSync(outFolder, { recursive: true });
+      const shoot = (name: string) => page.screenshot({ path: path.join(outFolder, `${name}.png`) });
+      const lit = await canvas(page, size.width, size.height);
+      await shoot('bake-birds-eye');
+      for (const picture of ['textures', 'light'] as const) {
+        await page.evaluate((p) => window.skybake!.setPicture(p), picture);
+        const other = await canvas(page, size.width, size.height);
+        await shoot(`bake-${picture}`);
+        expect(differingShare(lit, other)).toBeGreaterThan(0.05);
+      }
+      await page.evaluate(() => window.skybake!.setPicture('lit'));
+      await page.getByRole('button', { name: 'Walk' }).click();
+      const before = await page.evaluate(() => window.skybake!.view());
+      expect(before.mode).toBe('walk');
+      await shoot('bake-street');
+      const after = await page.evaluate(() => {
+        for (const [along, aside] of [[1, 0], [0, 1], [-1, 0]] as const) window.skybake!.walk(along, aside, 3);
+        return window.skybake!.view();
+      });
+      expect(Math.hypot(after.position[0] - before.position[0], after.position[1] - before.position[1])).toBeGreaterThan(1);
+      const count = await page.locator('#instant option').count();
+      for (let i = 0; i < count; ++i) await page.evaluate((index) => window.skybake!.setInstant(index), i);
+      expect((await page.evaluate(() => window.skybake!.view())).instant).toBe(count - 1);
+      expect(problems).toEqual([]);
+    } finally {
+      await browser.close();
+      await host.close();
+    }
+  });
+});
+
+async function compareWithGolden(name: string, rgb: Uint8Array): Promise<void> {
+  const file = path.join(goldenFolder, `${name}.png`);
+  const picture = encodePng({ ...size, channels: 3, pixels: rgb });
+  if (process.env['SKYBAKE_UPDATE_GOLDEN']) {
+    fs.mkdirSync(goldenFolder, { recursive: true });
+    fs.writeFileSync(file, picture);
+    return;
+  }
+  const share = differingShare(rgb, decodePng(fs.readFileSync(file)).pixels);
+  if (share > 0.005) {
+    fs.mkdirSync(outFolder, { recursive: true });
+    fs.writeFileSync(path.join(outFolder, `${name}.png`), picture);
+  }
+  expect(share, `share of pixels that differ from test/golden/${name}.png; the picture is in test/out/`).toBeLessThanOrEqual(0.005);
+}

@@ -1,0 +1,373 @@
+// A bake made by hand, in exactly the form that `skybake bake` writes: a square with three houses and a white card of known light.
+// Sun and sky come from a few lines of their own, so that this scene judges the walkthrough and not the baker.
+import fs from 'node:fs';
+import path from 'node:path';
+import type { Manifest } from '../../src/core/generated/manifest';
+import { srgbEncode } from '../../src/core/units';
+import { encodePng } from './png';
+
+type V3 = [number, number, number];
+type Instant = Manifest['instants'][number];
+
+const add = (a: V3, b: V3, scale = 1): V3 => [a[0] + scale * b[0], a[1] + scale * b[1], a[2] + scale * b[2]];
+const dot = (a: V3, b: V3) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+const length = (a: V3) => Math.sqrt(dot(a, a));
+
+interface Box { min: V3; max: V3; material: number }
+
+/** A rectangle: corner, two edges, outward normal. `light` overrides what would be computed. */
+interface Face { corner: V3; u: V3; v: V3; normal: V3; material: number; light?: { sky: V3; sunCosine: number } }
+
+const texelM = 0.5;
+const gutter = 2;
+const materials = [
+  { name: 'paving', color: [0.32, 0.3, 0.27], texture: 'paving' },
+  { name: 'plaster', color: [0.62, 0.5, 0.36], texture: 'windows' },
+  { name: 'tiles', color: [0.42, 0.16, 0.1], texture: null },
+  { name: 'white card', color: [1, 1, 1], texture: null },
+] as const;
+
+const boxes: Box[] = [
+  { min: [-32, 6, 0], max: [-14, 30, 14], material: 1 },
+  { min: [4, 10, 0], max: [26, 24, 9], material: 1 },
+  { min: [10, -30, 0], max: [22, -14, 24], material: 1 },
+];
+
+/** The white card stands free and faces south; its light is written down, not computed. */
+export const whiteCard = {
+  center: [-20, -20, 2] as V3,
+  skyKlx: [8, 10, 12] as V3,
+  sunCosine: 0.5,
+};
+
+/** Label, sun azimuth and elevation in degrees, beam (klx), zenith and horizon colour of the sky (kcd/m²). */
+const instants = [
+  { label: '2026-06-21T10:00+02:00', utc: '2026-06-21T08:00:00Z', azimuth: 110, elevation: 48, beam: [88, 82, 72] as V3, zenith: [1.6, 2.6, 5.2] as V3, horizon: [6, 7, 8.2] as V3 },
+  { label: '2026-06-21T19:00+02:00', utc: '2026-06-21T17:00:00Z', azimuth: 282, elevation: 14, beam: [48, 34, 18] as V3, zenith: [0.9, 1.4, 2.8] as V3, horizon: [5, 4.4, 3.8] as V3 },
+];
+
+export const fixtureInstants = instants.length;
+/** Normal illuminance of the first instant's beam, klx. */
+export const fixtureBeam = instants[0]!.beam;
+
+function boxFaces(box: Box): Face[] {
+  const [x0, y0, z0] = box.min;
+  const [x1, y1, z1] = box.max;
+  const [w, d, h] = [x1 - x0, y1 - y0, z1 - z0];
+  // u runs along the wall's own horizontal, v downwards, as atlas.h has it.
+  return [
+    { corner: [x0, y0, z1], u: [w, 0, 0], v: [0, 0, -h], normal: [0, -1, 0], material: box.material },
+    { corner: [x1, y1, z1], u: [-w, 0, 0], v: [0, 0, -h], normal: [0, 1, 0], material: box.material },
+    { corner: [x1, y0, z1], u: [0, d, 0], v: [0, 0, -h], normal: [1, 0, 0], material: box.material },
+    { corner: [x0, y1, z1], u: [0, -d, 0], v: [0, 0, -h], normal: [-1, 0, 0], material: box.material },
+    { corner: [x0, y1, z1], u: [w, 0, 0], v: [0, -d, 0], normal: [0, 0, 1], material: 2 },
+  ];
+}
+
+function faces(): { page: number; face: Face }[] {
+  const ground: Face = { corner: [-60, 60, 0], u: [120, 0, 0], v: [0, -120, 0], normal: [0, 0, 1], material: 0 };
+  const [cx, cy, cz] = whiteCard.center;
+  const card: Face = { corner: [cx - 2, cy, cz + 2], u: [4, 0, 0], v: [0, 0, -4], normal: [0, -1, 0], material: 3, light: { sky: whiteCard.skyKlx, sunCosine: whiteCard.sunCosine } };
+  return [{ page: 0, face: ground }, ...boxes.flatMap(boxFaces).map((face) => ({ page: 1, face })), { page: 1, face: card }];
+}
+
+function hitsBox(from: V3, direction: V3, box: Box): boolean {
+  let near = 1e-4;
+  let far = Infinity;
+  for (let axis = 0 as 0 | 1 | 2; axis < 3; ++axis) {
+    const a = (box.min[axis] - from[axis]) / direction[axis];
+    const b = (box.max[axis] - from[axis]) / direction[axis];
+    near = Math.max(near, Math.min(a, b));
+    far = Math.min(far, Math.max(a, b));
+  }
+  return near < far;
+}
+
+const isFree = (from: V3, direction: V3) => !boxes.some((box) => hitsBox(from, direction, box));
+
+function sunDirection(azimuthDeg: number, elevationDeg: number): V3 {
+  const [a, e] = [(azimuthDeg * Math.PI) / 180, (elevationDeg * Math.PI) / 180];
+  return [Math.sin(a) * Math.cos(e), Math.cos(a) * Math.cos(e), Math.sin(e)];
+}
+
+/** 96 directions over the upper hemisphere: enough for soft corners. */
+const dome: { direction: V3; solidAngle: number; rise: number }[] = [];
+for (let ring = 0; ring < 6; ++ring) {
+  for (let k = 0; k < 16; ++k) {
+    const sine = (ring + 0.5) / 6;
+    const cosine = Math.sqrt(1 - sine * sine);
+    const azimuth = ((k + 0.5 * (ring % 2)) / 16) * 2 * Math.PI;
+    dome.push({ direction: [cosine * Math.sin(azimuth), cosine * Math.cos(azimuth), sine], solidAngle: (2 * Math.PI) / 96, rise: sine });
+  }
+}
+
+function skyRadiance(instant: (typeof instants)[number], sine: number): V3 {
+  const t = Math.sqrt(sine);
+  return [0, 1, 2].map((c) => instant.horizon[c as 0]! * (1 - t) + instant.zenith[c as 0]! * t) as V3;
+}
+
+function lightAt(face: Face, point: V3, instant: (typeof instants)[number]): { sky: V3; sunCosine: number } {
+  if (face.light) return face.light;
+  const from = add(point, face.normal, 0.01);
+  let sky: V3 = [0, 0, 0];
+  for (const { direction, solidAngle, rise } of dome) {
+    const cosine = dot(face.normal, direction);
+    if (cosine > 0 && isFree(from, direction)) sky = add(sky, skyRadiance(instant, rise), cosine * solidAngle);
+  }
+  const sun = sunDirection(instant.azimuth, instant.elevation);
+  const cosine = Math.max(0, dot(face.normal, sun));
+  return { sky, sunCosine: cosine > 0 && isFree(from, sun) ? cosine : 0 };
+}
+
+interface Chart { face: Face; page: number; x: number; y: number; columns: number; rows: number }
+
+/** Rows of charts beside each other; page 0 has the ground alone. */
+function pack(): { charts: Chart[]; pages: { width: number; height: number }[] } {
+  const pages = [{ width: 256, height: 256 }, { width: 256, height: 256 }];
+  const pen = pages.map(() => ({ x: gutter, y: gutter, rowHeight: 0 }));
+  const charts = faces().map(({ face, page }) => {
+    const columns = Math.ceil(length(face.u) / texelM);
+    const rows = Math.ceil(length(face.v) / texelM);
+    const at = pen[page]!;
+    if (at.x + columns + gutter > pages[page]!.width) {
+      at.x = gutter;
+      at.y += at.rowHeight + 2 * gutter;
+      at.rowHeight = 0;
+    }
+    const chart: Chart = { face, page, x: at.x, y: at.y, columns, rows };
+    at.x += columns + 2 * gutter;
+    at.rowHeight = Math.max(at.rowHeight, rows);
+    if (at.y + rows + gutter > pages[page]!.height) throw new Error('the fixture has outgrown its pages');
+    return chart;
+  });
+  return { charts, pages };
+}
+
+function paint(name: string): { width: number; height: number; channels: 3; pixels: Uint8Array } {
+  const size = 64;
+  const pixels = new Uint8Array(size * size * 3);
+  for (let y = 0; y < size; ++y) {
+    for (let x = 0; x < size; ++x) {
+      const isWindow = name === 'windows' && x >= 20 && x < 44 && y >= 14 && y < 46;
+      const isJoint = name === 'paving' && (x % 32 === 0 || y % 32 === 0);
+      const shade = isWindow ? 70 : isJoint ? 170 : 235 + ((x * 7 + y * 13) % 11);
+      pixels.set([shade, shade, isWindow ? 90 : shade], 3 * (y * size + x));
+    }
+  }
+  return { width: size, height: size, channels: 3, pixels };
+}
+
+function halfBits(value: number): number {
+  if (value <= 0) return 0;
+  const exponent = Math.max(-14, Math.floor(Math.log2(value)));
+  return Math.round(((exponent + 15) << 10) + (value / 2 ** exponent - 1) * 1024);
+}
+
+function panorama(instant: (typeof instants)[number], width: number, height: number): Buffer {
+  const out = Buffer.alloc(width * height * 8);
+  const sun = sunDirection(instant.azimuth, instant.elevation);
+  for (let row = 0; row < height; ++row) {
+    const elevation = 90 - ((row + 0.5) / height) * 90;
+    for (let column = 0; column < width; ++column) {
+      const direction = sunDirection(((column + 0.5) / width) * 360, elevation);
+      const aureole = 4 * Math.exp(-Math.acos(Math.min(1, dot(direction, sun))) / 0.25);
+      const base = skyRadiance(instant, direction[2]);
+      [...base.map((c) => c + aureole), 1].forEach((c, k) => out.writeUInt16LE(halfBits(c), 8 * (row * width + column) + 2 * k));
+    }
+  }
+  return out;
+}
+
+/** Writes the bake into an empty folder. */
+export function writeFixture(folder: string): Manifest {
+  const { charts, pages } = pack();
+  fs.mkdirSync(path.join(folder, 'light'), { recursive: true });
+  const written = new Map<string, number>();
+  const write = (name: string, bytes: Uint8Array) => {
+    fs.writeFileSync(path.join(folder, name), bytes);
+    written.set(name, bytes.byteLength);
+  };
+  write('city.glb', makeGlb(charts, pages));
+
+  const manifestInstants = instants.map((instant, i): Instant => {
+    const scales = new Float32Array(charts.length * 2);
+    const sky = pages.map(({ width, height }) => new Uint8Array(width * height * 3));
+    const sun = pages.map(({ width, height }) => new Uint8Array(width * height));
+    let luminanceSum = 0;
+    let texels = 0;
+    charts.forEach((chart, c) => {
+      const samples: { at: number; sky: V3; sunCosine: number }[] = [];
+      for (let row = -gutter; row < chart.rows + gutter; ++row) {
+        for (let column = -gutter; column < chart.columns + gutter; ++column) {
+          // The gutter repeats the nearest texel of the chart.
+          const s = (Math.min(chart.columns - 1, Math.max(0, column)) + 0.5) / chart.columns;
+          const t = (Math.min(chart.rows - 1, Math.max(0, row)) + 0.5) / chart.rows;
+          const point = add(add(chart.face.corner, chart.face.u, s), chart.face.v, t);
+          samples.push({ at: (chart.y + row) * pages[chart.page]!.width + chart.x + column, ...lightAt(chart.face, point, instant) });
+        }
+      }
+      const skyScale = samples.reduce((most, sample) => Math.max(most, ...sample.sky), 1e-3);
+      const sunScale = samples.reduce((most, sample) => Math.max(most, sample.sunCosine), 1e-3);
+      scales.set([skyScale, sunScale], 2 * c);
+      for (const sample of samples) {
+        sky[chart.page]!.set(sample.sky.map((e) => Math.round(255 * srgbEncode(e / skyScale))), 3 * sample.at);
+        sun[chart.page]![sample.at] = Math.round((255 * sample.sunCosine) / sunScale);
+        const total = add(sample.sky, instant.beam, sample.sunCosine);
+        luminanceSum += (0.2126 * total[0] + 0.7152 * total[1] + 0.0722 * total[2]) / Math.PI;
+        ++texels;
+      }
+    });
+    write(`light/i${i}_scales.bin`, Buffer.from(scales.buffer));
+    write(`light/i${i}_sky.bin`, panorama(instant, 512, 128));
+    pages.forEach((page, p) => {
+      write(`light/i${i}_p${p}_sky.png`, encodePng({ ...page, channels: 3, pixels: sky[p]! }));
+      write(`light/i${i}_p${p}_sun.png`, encodePng({ ...page, channels: 1, pixels: sun[p]! }));
+    });
+    return {
+      label: instant.label,
+      utc: instant.utc,
+      sun: {
+        shape: 'point',
+        azimuth_deg: instant.azimuth,
+        elevation_deg: instant.elevation,
+        direction: sunDirection(instant.azimuth, instant.elevation),
+        normal_illuminance_klx: instant.beam,
+        dni_w_m2: 800,
+        angular_radius_deg: 0.2665,
+      },
+      sky: { model: 'made by hand', panorama: { uri: `light/i${i}_sky.bin`, width: 512, height: 128, format: 'rgba16f', unit: 'kcd/m2' } },
+      scales: { uri: `light/i${i}_scales.bin` },
+      exposure_hint: (0.5 * texels) / luminanceSum,
+      pages: pages.map((_, p) => ({ exr: `light/i${i}_p${p}.exr`, sky: `light/i${i}_p${p}_sky.png`, sun: `light/i${i}_p${p}_sun.png` })),
+    };
+  });
+
+  const manifest: Manifest = {
+    format: 'skybake-bake',
+    version: 1,
+    generator: { name: 'skybake viewer fixture', version: '1' },
+    title: 'Three houses',
+    crs: '',
+    site: null,
+    convergence_deg: 0,
+    origin: [0, 0, 0],
+    bounds: { min: [-60, -60, 0], max: [60, 60, 24] },
+    texel_m: texelM,
+    seed: 0,
+    sky_samples: dome.length,
+    sampling: 'full',
+    tolerance: 0,
+    settings: {},
+    inputs: [],
+    isa: 'none',
+    units: { illuminance: 'lx', luminance: 'cd/m2', length: 'm', angle: 'degree', color: 'linear Rec. 709, photometric: 0.2126 R + 0.7152 G + 0.0722 B is the illuminance or luminance' },
+    pages: pages.map(({ width, height }, p) => ({ width, height, base: `light/p${p}_base.exr`, svf: `light/p${p}_svf.png` })),
+    charts: charts.length,
+    instants: manifestInstants,
+    views: [
+      { name: 'From the south-east', position: [70, -85, 55], target: [0, 0, 4] },
+      { name: 'On the square', position: [-8, -34, 1.7], target: [4, 10, 5] },
+    ],
+    files: [...written].map(([name, bytes]) => ({ name, bytes })).sort((a, b) => (a.name < b.name ? -1 : 1)),
+    report: { buildings: 3, triangles: charts.length * 2, charts: charts.length, pages: pages.length, texels: charts.reduce((sum, c) => sum + c.columns * c.rows, 0), texel_m: texelM, rays: { sun: 0, sky: 0, photon: 0, feeler: 0 }, evaluated_fraction: 1, predicted_rmse_over_mean: 0 },
+    findings: [],
+  };
+  fs.writeFileSync(path.join(folder, 'manifest.json'), JSON.stringify(manifest, null, 1));
+  return manifest;
+}
+
+/** glTF 2.0 binary: one primitive for each material and page, y up. */
+function makeGlb(charts: readonly Chart[], pages: readonly { width: number; height: number }[]): Buffer {
+  const views: object[] = [];
+  const accessors: object[] = [];
+  const bytes: Buffer[] = [];
+  let size = 0;
+  const addView = (data: Buffer): number => {
+    views.push({ buffer: 0, byteOffset: size, byteLength: data.length });
+    const padded = Buffer.concat([data, Buffer.alloc((4 - (data.length % 4)) % 4)]);
+    bytes.push(padded);
+    size += padded.length;
+    return views.length - 1;
+  };
+  const addAccessor = (values: number[], type: 'SCALAR' | 'VEC2' | 'VEC3', extra: object = {}): number => {
+    const components = { SCALAR: 1, VEC2: 2, VEC3: 3 }[type];
+    accessors.push({ bufferView: addView(Buffer.from(new Float32Array(values).buffer)), componentType: 5126, count: values.length / components, type, ...extra });
+    return accessors.length - 1;
+  };
+  const images = ['paving', 'windows'].map((name) => ({ bufferView: addView(encodePng(paint(name))), mimeType: 'image/png' }));
+
+  const gltfMaterials: object[] = [];
+  const primitives: object[] = [];
+  for (const [m, material] of materials.entries()) {
+    for (const page of pages.keys()) {
+      const own = charts.map((chart, index) => ({ chart, index })).filter(({ chart }) => chart.face.material === m && chart.page === page);
+      if (own.length === 0) continue;
+      const position: number[] = [];
+      const uv: number[] = [];
+      const uv1: number[] = [];
+      const chartOf: number[] = [];
+      const index: number[] = [];
+      for (const { chart, index: c } of own) {
+        const first = chartOf.length;
+        for (const [s, t] of [[0, 0], [1, 0], [1, 1], [0, 1]] as const) {
+          const [x, y, z] = add(add(chart.face.corner, chart.face.u, s), chart.face.v, t);
+          position.push(x, z, -y);
+          uv.push((s * length(chart.face.u)) / 3, (t * length(chart.face.v)) / 3);
+          uv1.push((chart.x + s * chart.columns) / pages[page]!.width, (chart.y + t * chart.rows) / pages[page]!.height);
+          chartOf.push(c);
+        }
+        index.push(first, first + 2, first + 1, first, first + 3, first + 2);
+      }
+      const corners = [0, 1, 2].map((axis) => position.filter((_, i) => i % 3 === axis));
+      const indices = { bufferView: addView(Buffer.from(new Uint32Array(index).buffer)), componentType: 5125, count: index.length, type: 'SCALAR' };
+      accessors.push(indices);
+      const indexAccessor = accessors.length - 1;
+      gltfMaterials.push({
+        name: material.name,
+        doubleSided: true,
+        pbrMetallicRoughness: {
+          baseColorFactor: [...material.color, 1],
+          metallicFactor: 0,
+          ...(material.texture ? { baseColorTexture: { index: material.texture === 'paving' ? 0 : 1 } } : {}),
+        },
+        extensions: { SKYBAKE_lightmap: { page, texCoord: 1 } },
+      });
+      primitives.push({
+        attributes: {
+          POSITION: addAccessor(position, 'VEC3', { min: corners.map((c) => Math.min(...c)), max: corners.map((c) => Math.max(...c)) }),
+          TEXCOORD_0: addAccessor(uv, 'VEC2'),
+          TEXCOORD_1: addAccessor(uv1, 'VEC2'),
+          _CHART: addAccessor(chartOf, 'SCALAR'),
+        },
+        indices: indexAccessor,
+        material: gltfMaterials.length - 1,
+      });
+    }
+  }
+  const json = Buffer.from(JSON.stringify({
+    asset: { version: '2.0' },
+    extensionsUsed: ['SKYBAKE_lightmap'],
+    scene: 0,
+    scenes: [{ nodes: [0] }],
+    nodes: [{ mesh: 0 }],
+    meshes: [{ primitives }],
+    materials: gltfMaterials,
+    textures: images.map((_, source) => ({ source, sampler: 0 })),
+    samplers: [{ magFilter: 9729, minFilter: 9987, wrapS: 10497, wrapT: 10497 }],
+    images,
+    accessors,
+    bufferViews: views,
+    buffers: [{ byteLength: size }],
+  }));
+  const jsonChunk = Buffer.concat([json, Buffer.alloc((4 - (json.length % 4)) % 4, 0x20)]);
+  const header = Buffer.alloc(20);
+  header.write('glTF', 0, 'latin1');
+  header.writeUInt32LE(2, 4);
+  header.writeUInt32LE(28 + jsonChunk.length + size, 8);
+  header.writeUInt32LE(jsonChunk.length, 12);
+  header.write('JSON', 16, 'latin1');
+  const binHeader = Buffer.alloc(8);
+  binHeader.writeUInt32LE(size, 0);
+  binHeader.write('BIN\0', 4, 'latin1');
+  return Buffer.concat([header, jsonChunk, binHeader, ...bytes]);
+}

@@ -1,0 +1,61 @@
+// Eight-bit PNG without filters, in and out: enough for lightmap pages made by hand and for golden pictures.
+import zlib from 'node:zlib';
+
+export interface Image {
+  width: number;
+  height: number;
+  /** 1 grey, 3 RGB. */
+  channels: 1 | 3;
+  pixels: Uint8Array;
+}
+
+export function encodePng({ width, height, channels, pixels }: Image): Buffer {
+  const stride = width * channels;
+  const raw = Buffer.alloc((stride + 1) * height);
+  for (let row = 0; row < height; ++row) raw.set(pixels.subarray(row * stride, (row + 1) * stride), row * (stride + 1) + 1);
+  const header = Buffer.alloc(13);
+  header.writeUInt32BE(width, 0);
+  header.writeUInt32BE(height, 4);
+  header.set([8, channels === 1 ? 0 : 2, 0, 0, 0], 8);
+  return Buffer.concat([Buffer.from([0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a]), chunk('IHDR', header), chunk('IDAT', zlib.deflateSync(raw, { level: 9 })), chunk('IEND', Buffer.alloc(0))]);
+}
+
+function chunk(type: string, data: Buffer): Buffer {
+  const body = Buffer.concat([Buffer.from(type, 'latin1'), data]);
+  const out = Buffer.alloc(data.length + 12);
+  out.writeUInt32BE(data.length, 0);
+  out.set(body, 4);
+  out.writeUInt32BE(crc32(body), data.length + 8);
+  return out;
+}
+
+/** ISO 3309, as PNG asks for. */
+function crc32(bytes: Uint8Array): number {
+  let crc = ~0;
+  for (const byte of bytes) {
+    crc ^= byte;
+    for (let bit = 0; bit < 8; ++bit) crc = (crc >>> 1) ^ (crc & 1 ? 0xedb88320 : 0);
+  }
+  return ~crc >>> 0;
+}
+
+/** Reads what encodePng() writes; refuses anything else. */
+export function decodePng(file: Buffer): Image {
+  const width = file.readUInt32BE(16);
+  const height = file.readUInt32BE(20);
+  const channels = file[25] === 0 ? 1 : 3;
+  const parts: Buffer[] = [];
+  for (let at = 8; at < file.length; ) {
+    const length = file.readUInt32BE(at);
+    if (file.toString('latin1', at + 4, at + 8) === 'IDAT') parts.push(file.subarray(at + 8, at + 8 + length));
+    at += length + 12;
+  }
+  const raw = zlib.inflateSync(Buffer.concat(parts));
+  const stride = width * channels;
+  const pixels = new Uint8Array(stride * height);
+  for (let row = 0; row < height; ++row) {
+    if (raw[row * (stride + 1)] !== 0) throw new Error('this PNG uses row filters; only files of encodePng() are read');
+    pixels.set(raw.subarray(row * (stride + 1) + 1, (row + 1) * (stride + 1)), row * stride);
+  }
+  return { width, height, channels, pixels };
+}
