@@ -1,0 +1,175 @@
+#include "web_server.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <httplib.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "base/error.h"
+
+namespace skybake::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kLoopback = "127.0.0.1";
+constexpr std::size_t kBlock = std::size_t{1} << 18;
+
+/// An open file, read at any place by several threads.
+class OpenFile {
+  public:
+    explicit OpenFile(const fs::path& path) : descriptor_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {}
+    ~OpenFile() {
+        if (descriptor_ >= 0) ::close(descriptor_);
+    }
+    OpenFile(const OpenFile&) = delete;
+    OpenFile& operator=(const OpenFile&) = delete;
+
+    bool is_open() const { return descriptor_ >= 0; }
+    /// Bytes read; 0 at the end and on errors.
+    std::size_t read_at(std::size_t offset, char* buffer, std::size_t size) const {
+        const ssize_t count = ::pread(descriptor_, buffer, size, static_cast<off_t>(offset));
+        return count > 0 ? static_cast<std::size_t>(count) : 0;
+    }
+
+  private:
+    int descriptor_;
+};
+
+bool is_own_name(std::string host) {
+    if (const std::size_t colon = host.rfind(':'); colon != std::string::npos) host.resize(colon);
+    return host == kLoopback || host == "localhost";
+}
+
+void answer_text(httplib::Response& response, int status, const std::string& text) {
+    response.status = status;
+    response.set_content(text + "\n", "text/plain; charset=utf-8");
+}
+
+void answer_file(httplib::Response& response, const fs::path& path) {
+    const auto file = std::make_shared<OpenFile>(path);
+    std::error_code error;
+    const std::uintmax_t size = fs::file_size(path, error);
+    if (error || !file->is_open()) {
+        answer_text(response, 404, "This file cannot be read.");
+        return;
+    }
+    response.set_header("Cache-Control", "no-cache");  // the same folder may be baked again
+    response.set_header("X-Content-Type-Options", "nosniff");
+    const std::string type = mime_type(path);
+    if (size == 0) {
+        response.set_content("", type);
+        return;
+    }
+    response.set_content_provider(static_cast<std::size_t>(size), type,
+                                  [file](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
+                                      std::vector<char> block(std::min(length, kBlock));
+                                      const std::size_t count = file->read_at(offset, block.data(), block.size());
+                                      return count > 0 && sink.write(block.data(), count);
+                                  });
+}
+
+bool is_within(const fs::path& root, const fs::path& path) {
+    return std::mismatch(root.begin(), root.end(), path.begin(), path.end()).first == root.end();
+}
+
+}  // namespace
+
+std::optional<fs::path> file_below(const fs::path& root, const std::string& url_path) {
+    if (url_path.find('\0') != std::string::npos) return {};
+    const fs::path relative = fs::path(url_path).relative_path();
+    for (const fs::path& part : relative) {
+        if (part == "..") return {};
+    }
+    std::error_code error;
+    const fs::path whole_root = fs::canonical(root, error);
+    if (error) return {};
+    fs::path found = fs::canonical(root / relative, error);
+    if (!error && fs::is_directory(found, error)) found = fs::canonical(found / "index.html", error);
+    if (error || !is_within(whole_root, found) || !fs::is_regular_file(found, error)) return {};
+    return found;
+}
+
+std::string mime_type(const fs::path& file) {
+    static constexpr std::array<std::pair<std::string_view, std::string_view>, 14> kTypes{{
+        {".html", "text/html; charset=utf-8"},
+        {".js", "text/javascript; charset=utf-8"},
+        {".css", "text/css; charset=utf-8"},
+        {".json", "application/json"},
+        {".txt", "text/plain; charset=utf-8"},
+        {".csv", "text/csv; charset=utf-8"},
+        {".png", "image/png"},
+        {".jpg", "image/jpeg"},
+        {".svg", "image/svg+xml"},
+        {".exr", "image/x-exr"},
+        {".ktx2", "image/ktx2"},
+        {".glb", "model/gltf-binary"},
+        {".wasm", "application/wasm"},
+        {".bin", "application/octet-stream"},
+    }};
+    const std::string ending = file.extension().string();
+    for (const auto& [known, type] : kTypes) {
+        if (ending == known) return std::string(type);
+    }
+    return "application/octet-stream";
+}
+
+struct WebServer::State {
+    std::vector<fs::path> roots;
+    httplib::Server server;
+};
+
+WebServer::WebServer(std::vector<fs::path> roots) : state_(std::make_unique<State>()) {
+    state_->roots = std::move(roots);
+    httplib::Server& server = state_->server;
+    // The library's own default, SO_REUSEPORT, would let two servers share a port unnoticed.
+    server.set_socket_options([](socket_t socket) {
+        const int yes = 1;
+        ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
+    });
+    server.set_keep_alive_timeout(2);
+    server.set_pre_routing_handler([](const httplib::Request& request, httplib::Response& response) {
+        if (is_own_name(request.get_header_value("Host"))) return httplib::Server::HandlerResponse::Unhandled;
+        answer_text(response, 403, "This server answers only under the names 127.0.0.1 and localhost.");
+        return httplib::Server::HandlerResponse::Handled;
+    });
+    server.Get(".*", [this](const httplib::Request& request, httplib::Response& response) {
+        for (const fs::path& root : state_->roots) {
+            if (const std::optional<fs::path> file = file_below(root, request.path)) {
+                answer_file(response, *file);
+                return;
+            }
+        }
+        answer_text(response, 404, "There is no such file in this bake.");
+    });
+}
+
+WebServer::~WebServer() = default;
+
+int WebServer::bind(std::optional<int> port) {
+    const int first = port.value_or(kFirstPort);
+    const int last = port ? first : first + kPortsTried - 1;
+    for (int candidate = first; candidate <= last; ++candidate) {
+        if (state_->server.bind_to_port(kLoopback, candidate)) return candidate;
+    }
+    throw InputError(
+        port ? fmt::format("port {} of 127.0.0.1 is taken. Leave --port away to get a free one.", first)
+             : fmt::format("no port from {} to {} of 127.0.0.1 is free. Name one with --port.", first, last));
+}
+
+bool WebServer::run() {
+    return state_->server.listen_after_bind();
+}
+
+void WebServer::stop() {
+    state_->server.stop();
+}
+
+}  // namespace skybake::cli
