@@ -56,6 +56,8 @@ class ExrReader {
     /// Reads whole channels; each target has room for width × height samples. Half and integer samples are converted to
     /// the asked type. Throws InputError when a channel is absent or the file is broken.
     void read(std::span<const Target> targets);
+    /// The same for rows [first_row, first_row + row_count) only; the targets have room for these.
+    void read_rows(int first_row, int row_count, std::span<const Target> targets);
 
   private:
     struct State;

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <optional>
 
+#include "base/check.h"
 #include "base/error.h"
 #include "io/exr/exr.h"
 
@@ -62,6 +63,11 @@ bool ExrReader::has_channel(const std::string& name) const {
 }
 
 void ExrReader::read(std::span<const Target> targets) {
+    read_rows(0, state_->height, targets);
+}
+
+void ExrReader::read_rows(int first_row, int row_count, std::span<const Target> targets) {
+    SKYBAKE_CHECK(first_row >= 0 && row_count > 0 && row_count <= state_->height - first_row);
     Imf::FrameBuffer frame;
     for (const Target& target : targets) {
         if (!has_channel(target.channel.name)) {
@@ -75,13 +81,13 @@ void ExrReader::read(std::span<const Target> targets) {
         // (0, 0).
         const std::ptrdiff_t pixel = static_cast<std::ptrdiff_t>(target.stride * 4);
         const std::ptrdiff_t row = pixel * state_->width;
-        char* base = static_cast<char*>(target.first) - pixel * state_->x_min - row * state_->y_min;
+        char* base = static_cast<char*>(target.first) - pixel * state_->x_min - row * (state_->y_min + first_row);
         frame.insert(target.channel.name,
                      Imf::Slice(type, base, static_cast<std::size_t>(pixel), static_cast<std::size_t>(row)));
     }
     try {
         state_->file->setFrameBuffer(frame);
-        state_->file->readPixels(state_->y_min, state_->y_min + state_->height - 1);
+        state_->file->readPixels(state_->y_min + first_row, state_->y_min + first_row + row_count - 1);
     } catch (const std::exception& error) {
         fail(path_, error.what());
     }

@@ -1,0 +1,140 @@
+#include "io/manifest/read_bake.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "base/error.h"
+#include "io/exr/exr.h"
+#include "io/file/replace_file.h"
+#include "io/manifest/names.h"
+
+namespace skybake::io {
+namespace {
+
+constexpr int kLargestPage = 1 << 16;
+
+/// A file that the manifest names, which must lie inside the folder.
+std::filesystem::path file_in(const std::filesystem::path& folder, const std::string& uri) {
+    const std::filesystem::path relative(uri);
+    bool leaves = uri.empty() || relative.is_absolute();
+    for (const std::filesystem::path& part : relative) leaves = leaves || part == "..";
+    if (leaves)
+        throw InputError(
+            fmt::format("{}: names the file '{}' outside its folder.", (folder / names::kManifest).string(), uri));
+    return folder / relative;
+}
+
+StoredBake from_json(const std::filesystem::path& folder, const nlohmann::json& json) {
+    const std::string name = (folder / names::kManifest).string();
+    if (json.at("format") != "skybake-bake") throw InputError(fmt::format("{}: is not of a bake of skybake.", name));
+    if (json.at("version") != 1) {
+        throw InputError(fmt::format(
+            "{}: has version {}, and this skybake reads version 1. Bake again, or use the skybake that made it.", name,
+            json.at("version").dump()));
+    }
+    StoredBake bake;
+    bake.folder = folder;
+    bake.texel_m = json.at("texel_m").get<double>();
+    bake.charts = json.at("charts").get<std::uint64_t>();
+    for (const nlohmann::json& page : json.at("pages")) {
+        const int width = page.at("width").get<int>();
+        const int height = page.at("height").get<int>();
+        if (width <= 0 || height <= 0 || width > kLargestPage || height > kLargestPage) {
+            throw InputError(fmt::format("{}: has a page of {} x {} texels.", name, width, height));
+        }
+        bake.pages.push_back({width, height, file_in(folder, page.at("base").get<std::string>())});
+    }
+    for (const nlohmann::json& instant : json.at("instants")) {
+        StoredInstant stored;
+        stored.label = instant.at("label").get<std::string>();
+        for (const nlohmann::json& page : instant.at("pages"))
+            stored.pages.push_back(file_in(folder, page.at("exr").get<std::string>()));
+        if (stored.pages.size() != bake.pages.size()) {
+            throw InputError(fmt::format("{}: the instant '{}' has {} pages, and the atlas {}.", name, stored.label,
+                                         stored.pages.size(), bake.pages.size()));
+        }
+        bake.instants.push_back(std::move(stored));
+    }
+    return bake;
+}
+
+void check_size(const ExrReader& reader, const std::filesystem::path& path, const StoredPage& page) {
+    if (reader.width() == page.width && reader.height() == page.height) return;
+    throw InputError(fmt::format("{}: has {} x {} texels, and the manifest says {} x {}. Bake again.", path.string(),
+                                 reader.width(), reader.height(), page.width, page.height));
+}
+
+}  // namespace
+
+std::array<std::string, 3> channel_names(LightPart part) {
+    const std::string layer = part == LightPart::total ? "" : part == LightPart::sun ? "sun." : "sky.";
+    return {layer + "R", layer + "G", layer + "B"};
+}
+
+StoredBake open_bake(const std::filesystem::path& folder) {
+    std::error_code error;
+    if (!std::filesystem::is_directory(folder, error))
+        throw InputError(fmt::format("{}: is no folder. Name the folder of a bake.", folder.string()));
+    const std::filesystem::path manifest = folder / names::kManifest;
+    if (!std::filesystem::exists(manifest, error)) {
+        throw InputError(fmt::format(
+            "{}: holds no whole bake (manifest.json is absent). Was the bake stopped? Bake again.", folder.string()));
+    }
+    const std::vector<std::uint8_t> bytes = read_file(manifest);
+    try {
+        return from_json(folder, nlohmann::json::parse(bytes.begin(), bytes.end()));
+    } catch (const nlohmann::json::exception& fault) {
+        throw InputError(
+            fmt::format("{}: is no manifest of a bake ({}). Bake again.", manifest.string(), fault.what()));
+    }
+}
+
+LightmapPage read_base(const StoredBake& bake, std::size_t page) {
+    const StoredPage& stored = bake.pages[page];
+    ExrReader reader(stored.base);
+    check_size(reader, stored.base, stored);
+    LightmapPage base{stored.width, stored.height, {}, {}, {}};
+    const std::size_t count = static_cast<std::size_t>(stored.width) * static_cast<std::size_t>(stored.height);
+    std::vector<std::uint32_t> state(count);
+    std::vector<std::uint32_t> chart(count);
+    base.sky_view_factor.resize(count);
+    reader.read(
+        std::vector<ExrReader::Target>{{{"state", ExrType::uint32}, state.data(), 1},
+                                       {{"chart", ExrType::uint32}, chart.data(), 1},
+                                       {{"sky_view_factor", ExrType::float32}, base.sky_view_factor.data(), 1}});
+    base.state.resize(count);
+    base.chart.resize(count);
+    for (std::size_t t = 0; t < count; ++t) {
+        if (state[t] > static_cast<std::uint32_t>(TexelState::gutter))
+            throw InputError(fmt::format("{}: has the texel state {}, which is none.", stored.base.string(), state[t]));
+        if (state[t] != 0 && chart[t] >= bake.charts) {
+            throw InputError(
+                fmt::format("{}: names chart {} of {}. Bake again.", stored.base.string(), chart[t], bake.charts));
+        }
+        base.state[t] = static_cast<TexelState>(state[t]);
+        base.chart[t] = ChartId(chart[t]);
+    }
+    return base;
+}
+
+StoredLight read_light(const StoredBake& bake, std::size_t instant, std::size_t page) {
+    const std::filesystem::path& path = bake.instants[instant].pages[page];
+    const StoredPage& stored = bake.pages[page];
+    ExrReader reader(path);
+    check_size(reader, path, stored);
+    StoredLight light;
+    std::vector<ExrReader::Target> targets;
+    for (const auto& [part, pixels] :
+         {std::pair{LightPart::total, &light.total}, {LightPart::sun, &light.sun}, {LightPart::sky, &light.sky}}) {
+        pixels->resize(static_cast<std::size_t>(stored.width) * static_cast<std::size_t>(stored.height));
+        const std::array<std::string, 3> names = channel_names(part);
+        for (std::size_t c = 0; c < 3; ++c)
+            targets.push_back({{names[c], ExrType::float32}, &pixels->data()->x + c, 3});
+    }
+    reader.read(targets);
+    return light;
+}
+
+}  // namespace skybake::io

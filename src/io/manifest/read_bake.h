@@ -1,0 +1,54 @@
+// The folder of a bake, read back.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "bake/lightmap.h"
+#include "base/rgb.h"
+
+namespace skybake::io {
+
+struct StoredPage {
+    int width = 0;
+    int height = 0;
+    std::filesystem::path base;  // EXR with state, chart and sky view factor
+};
+
+struct StoredInstant {
+    std::string label;
+    std::vector<std::filesystem::path> pages;  // EXR with the light, one a page
+};
+
+/// What the manifest says of the pages; the pages themselves are read one by one, since a city's may not fit into
+/// memory.
+struct StoredBake {
+    std::filesystem::path folder;
+    double texel_m = 0.0;
+    std::uint64_t charts = 0;
+    std::vector<StoredPage> pages;
+    std::vector<StoredInstant> instants;
+};
+
+/// Names of the channels of a light EXR: R, G, B of the part.
+enum class LightPart : std::uint8_t { total, sun, sky };
+std::array<std::string, 3> channel_names(LightPart part);
+
+/// Irradiance of one instant on one page, lx per channel; width × height entries each, row 0 on top.
+struct StoredLight {
+    std::vector<Rgb> total;
+    std::vector<Rgb> sun;
+    std::vector<Rgb> sky;
+};
+
+/// Reads the manifest. Throws InputError when the folder holds no whole bake, or one of another version.
+StoredBake open_bake(const std::filesystem::path& folder);
+
+/// Throws InputError when the file is broken or does not fit the manifest.
+LightmapPage read_base(const StoredBake& bake, std::size_t page);
+StoredLight read_light(const StoredBake& bake, std::size_t instant, std::size_t page);
+
+}  // namespace skybake::io
