@@ -9,6 +9,11 @@
 namespace skybake::io {
 namespace {
 
+/// Clamped; a value that is no number becomes 0, where std::clamp would pass it on.
+float to_unit_range(float value) {
+    return value > 0.0f ? std::min(value, 1.0f) : 0.0f;
+}
+
 /// sRGB encoding of linear [0, 1] in 8 bit, rounded to nearest, by the linear values where the code changes: exact, and
 /// ten times as fast as a power for each texel.
 class SrgbEncoder {
@@ -24,7 +29,7 @@ class SrgbEncoder {
         }
     }
     std::uint8_t operator()(float linear) const {
-        const float v = std::clamp(linear, 0.0f, 1.0f);
+        const float v = to_unit_range(linear);
         std::uint8_t code = start_[static_cast<std::size_t>(v * kBuckets)];
         while (code < 255 && threshold_[code] <= v) ++code;
         return code;
@@ -37,7 +42,7 @@ class SrgbEncoder {
 };
 
 std::uint8_t eight_bit(float linear) {
-    return static_cast<std::uint8_t>(std::lround(255.0f * std::clamp(linear, 0.0f, 1.0f)));
+    return static_cast<std::uint8_t>(std::lround(255.0f * to_unit_range(linear)));
 }
 
 float inverse_or_zero(float scale) {
