@@ -23,17 +23,29 @@ UtcTime bisect(std::int64_t begin, std::int64_t end, const IsPast& is_past) {
     return UtcTime{begin + (end - begin) / 2};
 }
 
+/// Local mean solar time minus UTC.
+std::int64_t mean_solar_offset_ms(const Site& site) {
+    return std::llround(site.longitude_rad / (2.0 * kPi) * static_cast<double>(kDayMs));
+}
+
 }  // namespace
 
-SolarEvents solar_events(int year, int month, int day, const Site& site) {
-    const UtcTime midnight = utc_midnight(year, month, day);
-    const double delta_t = delta_t_s(decimal_year(midnight));
+std::int64_t local_solar_day(UtcTime instant, const Site& site) {
+    const std::int64_t local = instant.milliseconds + mean_solar_offset_ms(site);
+    return local >= 0 ? local / kDayMs : -((-local + kDayMs - 1) / kDayMs);
+}
+
+UtcTime local_mean_noon(int year, int month, int day, const Site& site) {
+    return UtcTime{utc_midnight(year, month, day).milliseconds + kDayMs / 2 - mean_solar_offset_ms(site)};
+}
+
+SolarEvents solar_events(UtcTime instant, const Site& site) {
+    const double delta_t = delta_t_s(decimal_year(instant));
     const auto sun_at = [&](std::int64_t ms) { return solar_position(UtcTime{ms}, site, {.delta_t_s = delta_t}); };
     const double horizon_rad = radians_from_degrees(kSunriseElevationDeg);
     const auto is_up = [&](std::int64_t ms) { return sun_at(ms).geocentric_elevation_rad >= horizon_rad; };
 
-    const std::int64_t begin =
-        midnight.milliseconds - std::llround(site.longitude_rad / (2.0 * kPi) * static_cast<double>(kDayMs));
+    const std::int64_t begin = local_solar_day(instant, site) * kDayMs - mean_solar_offset_ms(site);
     SolarEvents events;
     // The equation of time keeps the transit within 17 minutes of the mean noon, where the hour angle rises through
     // zero.

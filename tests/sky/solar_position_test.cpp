@@ -91,9 +91,12 @@ TEST(SolarEvents, AgreeWithErfa) {
         SCOPED_TRACE(row.text("id") + " " + row.text("site"));
         const std::string& date = row.text("local_solar_date");
         const double latitude = row.number("lat_deg");
-        const SolarEvents events =
-            solar_events(std::stoi(date.substr(0, 4)), std::stoi(date.substr(5, 2)), std::stoi(date.substr(8, 2)),
-                         site_of(latitude, row.number("lon_deg"), 0.0));
+        const Site site = site_of(latitude, row.number("lon_deg"), 0.0);
+        const UtcTime noon = local_mean_noon(std::stoi(date.substr(0, 4)), std::stoi(date.substr(5, 2)),
+                                             std::stoi(date.substr(8, 2)), site);
+        const SolarEvents events = solar_events(noon, site);
+        EXPECT_EQ(solar_events(UtcTime{noon.milliseconds - 43'200'000}, site).transit, events.transit)
+            << "the day begins at its midnight";
         const std::string& state = row.text("state");
         EXPECT_EQ(events.kind, state == "normal"         ? SolarDayKind::normal
                                : state == "midnight_sun" ? SolarDayKind::midnight_sun
