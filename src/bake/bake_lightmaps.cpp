@@ -23,7 +23,7 @@ namespace skybake {
 
 namespace {
 
-constexpr int kTile = TilePoints::kMaxSize;
+constexpr int kTile = TilePoints::kMaxTexels;
 // A texel is a feature where geometry stands within this many texels of its point: a chimney's foot, a dormer's wall, an eave.
 constexpr float kFeatureReach = 1.5f;
 // Height above the surface at which features are looked for, in texels of the chart: what stands lower casts no shadow worth a texel.
@@ -184,9 +184,11 @@ class Baker {
         };
         const int column0 = cut(chart.size.x, tile_column), column1 = cut(chart.size.x, tile_column + 1);
         const int row0 = cut(chart.size.y, tile_row), row1 = cut(chart.size.y, tile_row + 1);
+        const int columns = column1 - column0, rows = row1 - row0;
+        const auto whole_cells = [](int texels) { return std::max((texels - 1 + TilePoints::kCell - 1) / TilePoints::kCell, 1) * TilePoints::kCell + 1; };
         TilePoints points;
-        points.width = column1 - column0;
-        points.height = row1 - row0;
+        points.width = whole_cells(columns);
+        points.height = whole_cells(rows);
         const std::size_t count = static_cast<std::size_t>(points.width) * static_cast<std::size_t>(points.height);
         points.x.resize(count);
         points.y.resize(count);
@@ -195,8 +197,8 @@ class Baker {
         points.is_feature.assign(static_cast<std::size_t>(points.height), 0);
         const bool is_relief = chart.min_normal_cosine < 1.0f;
         if (is_relief) points.normal.assign(count, chart.normal);
-        for (int row = 0; row < points.height; ++row) {
-            for (int column = 0; column < points.width; ++column) {
+        for (int row = 0; row < rows; ++row) {
+            for (int column = 0; column < columns; ++column) {
                 const std::size_t i = samples.index(column0 + column, row0 + row);
                 if (samples.cover[i] == ChartSamples::Cover::none) continue;
                 const std::size_t t = static_cast<std::size_t>(points.texel(column, row));
@@ -209,12 +211,16 @@ class Baker {
                 points.covered[row] |= 1ull << column;
             }
         }
+        if (std::all_of(points.covered.begin(), points.covered.end(), [](std::uint64_t row) { return row == 0; })) return;
         DirectionPacket packet(rays_);
-        if (options_.tolerance && count > 64) find_features(chart, points, packet);
+        if (options_.tolerance) {
+            find_features(chart, points, packet);
+            points.extend();
+        }
         SkyTileStatistics statistics;
         const TileLight tile = light_tile(points, dome, packet, {options_.tolerance}, statistics);
-        for (int row = 0; row < points.height; ++row) {
-            for (int column = 0; column < points.width; ++column) {
+        for (int row = 0; row < rows; ++row) {
+            for (int column = 0; column < columns; ++column) {
                 const std::size_t i = samples.index(column0 + column, row0 + row);
                 const std::size_t t = static_cast<std::size_t>(points.texel(column, row));
                 light.sky_view_factor[i] = tile.sky_view_factor[t];

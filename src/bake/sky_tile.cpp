@@ -32,7 +32,7 @@ constexpr int kSmallTile = 64;
 // In dark tiles the tolerance is relative to this share of the unobstructed light, lest rays are spent on errors nobody sees.
 constexpr float kDarkTile = 0.1f;
 // From cheap to dear; the first that keeps the tolerance in a tile is taken, the last resort being every texel.
-constexpr std::array<Lattice, 6> kLattices{{{16, 2}, {16, 1}, {8, 2}, {8, 1}, {4, 2}, {4, 1}}};
+constexpr std::array<Lattice, 7> kLattices{{{16, 4}, {8, 4}, {16, 2}, {8, 2}, {16, 1}, {8, 1}, {4, 1}}};
 
 /// acc[i] += w × v[i].
 SKYBAKE_WIDE_LOOP void add_scaled(float* __restrict acc, const float* __restrict v, float w, std::size_t count) {
@@ -61,47 +61,56 @@ class RaySource final : public VisibilitySource {
   public:
     RaySource(const TilePoints& points, DirectionPacket& packet) : points_(points), packet_(packet) {}
 
-    void look(std::span<const std::uint16_t> texels, std::span<std::uint64_t> visible) override {
-        alignas(64) std::array<float, kPacket> x, y, z;
-        for (std::size_t begin = 0; begin < texels.size(); begin += kPacket) {
-            const int count = static_cast<int>(std::min<std::size_t>(kPacket, texels.size() - begin));
-            for (int i = 0; i < count; ++i) {
-                const std::uint16_t texel = texels[begin + static_cast<std::size_t>(i)];
-                x[i] = points_.x[texel];
-                y[i] = points_.y[texel];
-                z[i] = points_.z[texel];
-            }
-            std::uint32_t free = ~packet_.occluded(x.data(), y.data(), z.data(), count);
-            for (int i = 0; i < count; ++i, free >>= 1) {
-                const std::uint16_t texel = texels[begin + static_cast<std::size_t>(i)];
-                visible[texel / points_.width] |= static_cast<std::uint64_t>(free & 1u) << (texel % points_.width);
+    void look(std::span<const std::uint64_t> wanted, std::span<std::uint64_t> visible) override {
+        int count = 0;
+        for (std::size_t row = 0; row < wanted.size(); ++row) {
+            visible[row] &= ~wanted[row];
+            for (std::uint64_t left = wanted[row]; left; left &= left - 1) {
+                const int column = std::countr_zero(left);
+                const std::size_t texel = static_cast<std::size_t>(points_.texel(column, static_cast<int>(row)));
+                x_[count] = points_.x[texel];
+                y_[count] = points_.y[texel];
+                z_[count] = points_.z[texel];
+                row_[count] = static_cast<std::uint8_t>(row);
+                column_[count] = static_cast<std::uint8_t>(column);
+                if (++count == kPacket) {
+                    trace(count, visible);
+                    count = 0;
+                }
             }
         }
+        if (count > 0) trace(count, visible);
     }
 
   private:
+    void trace(int count, std::span<std::uint64_t> visible) {
+        std::uint32_t free = ~packet_.occluded(x_.data(), y_.data(), z_.data(), count) & ((1u << count) - 1u);
+        for (; free; free &= free - 1) {
+            const int i = std::countr_zero(free);
+            visible[row_[i]] |= 1ull << column_[i];
+        }
+    }
+
     const TilePoints& points_;
     DirectionPacket& packet_;
+    alignas(64) std::array<float, kPacket> x_, y_, z_;
+    std::array<std::uint8_t, kPacket> row_, column_;
 };
 
 /// The known answer of a pilot direction.
 class PilotSource final : public VisibilitySource {
   public:
-    PilotSource(const TilePoints& points, std::span<const std::uint64_t> truth) : points_(points), truth_(truth) {}
+    explicit PilotSource(std::span<const std::uint64_t> truth) : truth_(truth) {}
 
-    void look(std::span<const std::uint16_t> texels, std::span<std::uint64_t> visible) override {
-        for (const std::uint16_t texel : texels) {
-            const int row = texel / points_.width;
-            visible[row] |= truth_[row] & (1ull << (texel % points_.width));
-        }
+    void look(std::span<const std::uint64_t> wanted, std::span<std::uint64_t> visible) override {
+        for (std::size_t row = 0; row < wanted.size(); ++row) visible[row] = (visible[row] & ~wanted[row]) | (truth_[row] & wanted[row]);
     }
 
   private:
-    const TilePoints& points_;
     std::span<const std::uint64_t> truth_;
 };
 
-/// All covered texels in blocks of 4 × 4, so that a packet's rays start side by side.
+/// All listed texels in blocks of 4 × 4, so that a packet's rays start side by side.
 class FullSampler {
   public:
     FullSampler(const TilePoints& points, DirectionPacket& packet) : points_(points), packet_(packet) {
@@ -218,7 +227,7 @@ Trial try_lattice(const TilePoints& points, VisibilityGrid& grid, const Lattice&
     std::vector<std::uint64_t> visible(points.covered.size());
     double independent = 0.0;  // Σ e² over pilots and texels
     for (const std::vector<std::uint64_t>& truth : pilots) {
-        PilotSource source(points, truth);
+        PilotSource source(truth);
         trial.rays += static_cast<double>(grid.solve(lattice, source, visible));
         for (const VisibilityGrid::Fraction& f : grid.fractions()) {
             const int row = f.texel / points.width;
@@ -229,7 +238,7 @@ Trial try_lattice(const TilePoints& points, VisibilityGrid& grid, const Lattice&
             visible[row] = (visible[row] & ~bit) | (truth[row] & bit);  // accounted for
         }
         for (int row = 0; row < points.height; ++row) {
-            for (std::uint64_t wrong = visible[row] ^ truth[row]; wrong; wrong &= wrong - 1) {
+            for (std::uint64_t wrong = (visible[row] ^ truth[row]) & points.covered[row]; wrong; wrong &= wrong - 1) {
                 const int column = std::countr_zero(wrong);
                 net[static_cast<std::size_t>(points.texel(column, row))] += visible[row] >> column & 1 ? 1.0f : -1.0f;
                 independent += 1.0;
@@ -256,6 +265,36 @@ std::uint64_t fixed_point(double value) { return static_cast<std::uint64_t>(std:
 
 }  // namespace
 
+void TilePoints::extend() {
+    // Wave after wave from the covered texels outwards.
+    std::vector<std::uint16_t> source(x.size());
+    std::vector<std::uint64_t> reached = covered;
+    for (int row = 0; row < height; ++row) {
+        for (int column = 0; column < width; ++column) source[static_cast<std::size_t>(texel(column, row))] = static_cast<std::uint16_t>(texel(column, row));
+    }
+    const std::uint64_t all = ~0ull >> (64 - width);
+    while (std::any_of(reached.begin(), reached.end(), [&](std::uint64_t bits) { return bits != all; })) {
+        const std::vector<std::uint64_t> before = reached;
+        for (int row = 0; row < height; ++row) {
+            for (std::uint64_t open = all & ~before[row]; open; open &= open - 1) {
+                const int column = std::countr_zero(open);
+                for (const Vec2i step : {Vec2i(-1, 0), Vec2i(1, 0), Vec2i(0, -1), Vec2i(0, 1), Vec2i(-1, -1), Vec2i(1, -1), Vec2i(-1, 1), Vec2i(1, 1)}) {
+                    const int c = column + step.x, r = row + step.y;
+                    if (c < 0 || r < 0 || c >= width || r >= height || !(before[r] >> c & 1)) continue;
+                    const std::size_t from = source[static_cast<std::size_t>(texel(c, r))], to = static_cast<std::size_t>(texel(column, row));
+                    source[to] = static_cast<std::uint16_t>(from);
+                    copies.emplace_back(static_cast<std::uint16_t>(to), static_cast<std::uint16_t>(from));
+                    x[to] = x[from];
+                    y[to] = y[from];
+                    z[to] = z[from];
+                    reached[row] |= 1ull << column;
+                    break;
+                }
+            }
+        }
+    }
+}
+
 void SkyTileStatistics::add(const SkyTileStatistics& other) {
     rays += other.rays;
     pairs += other.pairs;
@@ -266,8 +305,8 @@ void SkyTileStatistics::add(const SkyTileStatistics& other) {
 
 TileLight light_tile(const TilePoints& points, const DomeSamples& dome, DirectionPacket& packet, const SkyTileOptions& options,
                      SkyTileStatistics& statistics) {
-    SKYBAKE_CHECK_LE(points.width, TilePoints::kMaxSize);
-    SKYBAKE_CHECK_LE(points.height, TilePoints::kMaxSize);
+    SKYBAKE_CHECK_LE(points.width, TilePoints::kMaxTexels);
+    SKYBAKE_CHECK_LE(points.height, TilePoints::kMaxTexels);
     FullSampler full(points, packet);
     Accumulator sum(points, dome);
     std::vector<std::uint64_t> visible(points.covered.size());
@@ -294,8 +333,11 @@ TileLight light_tile(const TilePoints& points, const DomeSamples& dome, Directio
     for (std::size_t p = 0; p < kPilots; ++p) {
         pilot_index.push_back((2 * p + 1) * count / (2 * kPilots));
         trace_full(pilot_index.back());
-        pilots.push_back(visible);
         for (const std::uint64_t row : visible) visible_pairs += static_cast<std::uint64_t>(std::popcount(row));
+        for (const auto& [to, from] : points.copies) {
+            visible[to / points.width] |= (visible[from / points.width] >> (from % points.width) & 1) << (to % points.width);
+        }
+        pilots.push_back(visible);
     }
     const double mean_visibility = static_cast<double>(visible_pairs) / static_cast<double>(kPilots * full.size());
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "base/rgb.h"
@@ -13,18 +14,25 @@
 
 namespace skybake {
 
-/// Points of up to 64 × 64 texels. Arrays have width × height entries, row 0 on top.
+/// Points of up to 49 × 49 texels: three cells of 16 a side, and their far corners. Arrays have width × height entries, row 0 on top.
 struct TilePoints {
+    static constexpr int kCell = 16;
+    static constexpr int kMaxTexels = 3 * kCell + 1;
     static constexpr int kMaxSize = 64;  // a row of visibility is one machine word
 
-    int width = 0;
-    int height = 0;
-    std::vector<float> x, y, z;              // lifted off the surface, local metres
-    std::vector<std::uint64_t> covered;      // [row]: bit c set where texel c has a point
-    std::vector<std::uint64_t> is_feature;   // [row]: texels near a place where other geometry touches the chart: always traced
-    std::vector<Vec3f> normal;               // relief charts only, one a texel; else empty
+    int width = 0;   // a multiple of kCell, plus 1
+    int height = 0;  // likewise
+    std::vector<float> x, y, z;             // lifted off the surface, local metres; texels that are not covered repeat the nearest covered one
+    std::vector<std::uint64_t> covered;     // [row]: bit c set where texel c belongs to the surface
+    std::vector<std::uint64_t> is_feature;  // [row]: texels near a place where other geometry touches the chart: always traced
+    std::vector<Vec3f> normal;              // relief charts only, one a texel; else empty
 
     int texel(int column, int row) const { return row * width + column; }
+
+    /// Gives the texels that are not covered the point of a covered one nearby. At least one must be covered.
+    void extend();
+    /// (uncovered texel, covered texel whose point it repeats), filled by `extend`.
+    std::vector<std::pair<std::uint16_t, std::uint16_t>> copies;
 };
 
 /// What a tile's skylight is. Arrays have width × height entries.

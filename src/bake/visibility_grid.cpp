@@ -1,8 +1,7 @@
 #include "bake/visibility_grid.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <bit>
 
 #include "base/check.h"
 
@@ -10,193 +9,141 @@ namespace skybake {
 
 namespace {
 
-constexpr int kRootCell = 16;
+constexpr std::array<int, 5> kCells{16, 8, 4, 2, 1};
 
-/// Lattice lines from 0 to size − 1, at most kRootCell apart, evenly spaced.
-std::vector<int> lattice_lines(int size) {
-    const int cells = std::max(1, (size - 1 + kRootCell - 1) / kRootCell);
-    std::vector<int> lines;
-    for (int i = 0; i <= cells; ++i) lines.push_back(i * (size - 1) / cells);
-    return lines;
-}
+/// The bits of columns [begin, end], end ≤ 63.
+constexpr std::uint64_t columns(int begin, int end) { return (~0ull >> (63 - (end - begin))) << begin; }
 
 }  // namespace
 
-VisibilityGrid::VisibilityGrid(const TilePoints& points) : points_(points), known_(static_cast<std::size_t>(points.height)) {
-    const std::vector<int> columns = lattice_lines(points.width), rows = lattice_lines(points.height);
-    for (std::size_t j = 0; j + 1 < rows.size(); ++j) {
-        for (std::size_t i = 0; i + 1 < columns.size(); ++i) add_cell(columns[i], rows[j], columns[i + 1], rows[j + 1]);
-    }
-    for (std::uint32_t c = 0; c < cells_.size(); ++c) roots_[0].push_back(c);
-    for (std::size_t c = 0; c < cells_.size(); ++c) split(c);
-    for (int level = 1; level < 3; ++level) {
-        const int size = kRootCell >> level;
-        std::vector<std::uint32_t> open = roots_[0];
-        while (!open.empty()) {
-            const std::uint32_t c = open.back();
-            open.pop_back();
-            if (cells_[c].extent() <= size || cells_[c].child_count == 0) {
-                roots_[level].push_back(c);
-                continue;
+VisibilityGrid::VisibilityGrid(const TilePoints& points) : points_(points) {
+    SKYBAKE_CHECK_EQ((points.width - 1) % TilePoints::kCell, 0);
+    SKYBAKE_CHECK_EQ((points.height - 1) % TilePoints::kCell, 0);
+    for (int level = 0; level < kLevels; ++level) {
+        const int cell = kCells[level];
+        for (int x = 0; x + cell < points.width; x += cell) cell_columns_[level] |= 1ull << x;
+        for (int y = 0; y + cell < points.height; y += cell) {
+            std::uint64_t covered = 0;
+            for (int row = y; row <= y + cell; ++row) covered |= points.covered[row];
+            for (int x = 0; x + cell < points.width; x += cell) {
+                if (covered & columns(x, x + cell)) in_use_[level][y] |= 1ull << x;
             }
-            for (int i = cells_[c].child_count - 1; i >= 0; --i) open.push_back(cells_[c].first_child + static_cast<std::uint32_t>(i));
         }
-        std::sort(roots_[level].begin(), roots_[level].end());
     }
     force(std::vector<std::uint64_t>(points.covered.size(), 0));
 }
 
-/// False when the cell holds no covered texel.
-bool VisibilityGrid::add_cell(int x0, int y0, int x1, int y1) {
-    Cell cell{static_cast<std::uint8_t>(x0), static_cast<std::uint8_t>(y0), static_cast<std::uint8_t>(x1), static_cast<std::uint8_t>(y1), 0, false, {}, 0};
-    const std::uint64_t columns = cell.columns();
-    bool is_empty = true, is_full = true;
-    for (int y = y0; y <= y1; ++y) {
-        const std::uint64_t covered = points_.covered[y] & columns;
-        is_empty = is_empty && covered == 0;
-        is_full = is_full && covered == columns;
+void VisibilityGrid::force(std::span<const std::uint64_t> texels) {
+    for (int level = 0; level < kLevels; ++level) {
+        const int cell = kCells[level];
+        forced_[level].fill(0);
+        if (cell == 1) continue;  // nothing is left to halve
+        for (int y = 0; y + cell < points_.height; y += cell) {
+            std::uint64_t any = 0;
+            for (int row = y; row <= y + cell; ++row) any |= (texels[row] | points_.is_feature[row]) & points_.covered[row];
+            if (!any) continue;
+            for (int x = 0; x + cell < points_.width; x += cell) {
+                if (any & columns(x, x + cell)) forced_[level][y] |= 1ull << x;
+            }
+        }
     }
-    if (is_empty) return false;
-    for (int k = 0; k < 4; ++k) {
-        const int corner_x = k & 1 ? x1 : x0, corner_y = k & 2 ? y1 : y0;
-        int best_x = corner_x, best_y = corner_y;
-        if (!is_full && !(points_.covered[corner_y] >> corner_x & 1)) {
-            int best = std::numeric_limits<int>::max();
-            for (int y = y0; y <= y1; ++y) {
-                for (int x = x0; x <= x1; ++x) {
-                    const int distance2 = (x - corner_x) * (x - corner_x) + (y - corner_y) * (y - corner_y);
-                    if ((points_.covered[y] >> x & 1) && distance2 < best) {
-                        best = distance2;
-                        best_x = x;
-                        best_y = y;
-                    }
+}
+
+std::size_t VisibilityGrid::look(VisibilitySource& source, std::span<std::uint64_t> visible) {
+    std::size_t count = 0;
+    for (int row = 0; row < points_.height; ++row) {
+        count += static_cast<std::size_t>(std::popcount(wanted_[row]));
+        known_[row] |= wanted_[row];
+    }
+    if (count > 0) source.look(std::span(wanted_).first(static_cast<std::size_t>(points_.height)), visible);
+    return count;
+}
+
+void VisibilityGrid::find_mixed(int cell, std::span<const std::uint64_t> visible, Rows& mixed) const {
+    const int level = level_of(cell);
+    for (int y = 0; y + cell < points_.height; y += cell) {
+        const std::uint64_t low = visible[y], high = visible[y + cell];
+        mixed[y] = (((low ^ (low >> cell)) | (low ^ high) | (low ^ (high >> cell))) & in_use_[level][y]) | forced_[level][y];
+    }
+}
+
+void VisibilityGrid::interpolate(int cell, const Rows& mixed, std::span<const std::uint64_t> visible) {
+    const float step = 1.0f / static_cast<float>(cell);
+    Rows done = known_;
+    for (int y0 = 0; y0 + cell < points_.height; y0 += cell) {
+        for (std::uint64_t left = mixed[y0]; left; left &= left - 1) {
+            const int x0 = std::countr_zero(left);
+            const auto value = [&](int x, int y) { return static_cast<float>(visible[y] >> x & 1); };
+            const float v00 = value(x0, y0), v10 = value(x0 + cell, y0), v01 = value(x0, y0 + cell), v11 = value(x0 + cell, y0 + cell);
+            for (int y = y0; y <= y0 + cell; ++y) {
+                const float t = static_cast<float>(y - y0) * step;
+                for (std::uint64_t open = columns(x0, x0 + cell) & points_.covered[y] & ~done[y]; open; open &= open - 1) {
+                    const int x = std::countr_zero(open);
+                    const float s = static_cast<float>(x - x0) * step;
+                    done[y] |= 1ull << x;  // a common side is interpolated once: both cells would give the same
+                    fractions_.push_back({static_cast<std::uint16_t>(points_.texel(x, y)), (1 - t) * ((1 - s) * v00 + s * v10) + t * ((1 - s) * v01 + s * v11)});
                 }
             }
         }
-        cell.test[k] = static_cast<std::uint16_t>(points_.texel(best_x, best_y));
-    }
-    cells_.push_back(cell);
-    return true;
-}
-
-void VisibilityGrid::split(std::size_t index) {
-    const Cell cell = cells_[index];
-    const int xm = (cell.x0 + cell.x1) / 2, ym = (cell.y0 + cell.y1) / 2;
-    const bool splits_x = cell.x1 - cell.x0 > 1, splits_y = cell.y1 - cell.y0 > 1;
-    if (!splits_x && !splits_y) return;
-    const std::uint32_t first = static_cast<std::uint32_t>(cells_.size());
-    std::uint8_t count = 0;
-    for (int j = 0; j <= static_cast<int>(splits_y); ++j) {
-        for (int i = 0; i <= static_cast<int>(splits_x); ++i) {
-            count = static_cast<std::uint8_t>(count + add_cell(splits_x && i == 1 ? xm : cell.x0, splits_y && j == 1 ? ym : cell.y0,
-                                                               splits_x && i == 0 ? xm : cell.x1, splits_y && j == 0 ? ym : cell.y1));
-        }
-    }
-    cells_[index].first_child = first;
-    cells_[index].child_count = count;
-}
-
-void VisibilityGrid::force(std::span<const std::uint64_t> texels) {
-    for (Cell& cell : cells_) {
-        const std::uint64_t columns = cell.columns();
-        std::uint64_t any = 0;
-        for (int y = cell.y0; y <= cell.y1; ++y) any |= (texels[y] | points_.is_feature[y]) & columns & points_.covered[y];
-        cell.is_forced = any != 0;
     }
 }
 
-bool VisibilityGrid::agrees(const Cell& cell, std::span<const std::uint64_t> visible) const {
-    const int width = points_.width;
-    const int row = cell.test[0] / width, column = cell.test[0] % width;
-    const std::uint64_t expected = visible[row] >> column & 1 ? ~0ull : 0ull;
-    const std::uint64_t columns = cell.columns();
-    std::uint64_t differs = 0;
-    for (int y = cell.y0; y <= cell.y1; ++y) differs |= known_[y] & columns & (visible[y] ^ expected);
-    return differs == 0;
-}
-
-void VisibilityGrid::want(const Cell& cell) {
-    const int width = points_.width;
-    for (const std::uint16_t texel : cell.test) {
-        const int row = texel / width;
-        const std::uint64_t bit = 1ull << (texel % width);
-        if (known_[row] & bit) continue;
-        known_[row] |= bit;
-        wanted_.push_back(texel);
-    }
-}
-
-void VisibilityGrid::interpolate(const Cell& cell, std::span<std::uint64_t> visible) {
-    const int width = points_.width;
-    const auto value = [&](int k) { return static_cast<float>(visible[cell.test[k] / width] >> (cell.test[k] % width) & 1); };
-    const float v00 = value(0), v10 = value(1), v01 = value(2), v11 = value(3);
-    for (int y = cell.y0; y <= cell.y1; ++y) {
-        for (int x = cell.x0; x <= cell.x1; ++x) {
-            const std::uint64_t bit = 1ull << x;
-            if (!(points_.covered[y] & bit) || (known_[y] & bit)) continue;
-            const float s = cell.x1 > cell.x0 ? static_cast<float>(x - cell.x0) / static_cast<float>(cell.x1 - cell.x0) : 0.0f;
-            const float t = cell.y1 > cell.y0 ? static_cast<float>(y - cell.y0) / static_cast<float>(cell.y1 - cell.y0) : 0.0f;
-            known_[y] |= bit;  // a shared border is interpolated once, by the cell that comes first
-            visible[y] &= ~bit;
-            fractions_.push_back({static_cast<std::uint16_t>(points_.texel(x, y)), (1 - t) * ((1 - s) * v00 + s * v10) + t * ((1 - s) * v01 + s * v11)});
-        }
+/// Nodes of the next level that nobody looked at are as their cell's corners.
+void VisibilityGrid::fill_next_level(int cell, std::span<std::uint64_t> visible) const {
+    const int half = cell / 2;
+    const std::uint64_t nodes = cell_columns_[level_of(cell)] | cell_columns_[level_of(cell)] << cell;
+    for (int y = 0; y < points_.height; y += cell) {
+        const std::uint64_t corner = visible[y] & nodes;
+        const std::uint64_t middle = corner << half;
+        visible[y] |= middle & ~known_[y];
+        if (y + half < points_.height) visible[y + half] |= (corner | middle) & ~known_[y + half];
     }
 }
 
 std::size_t VisibilityGrid::solve(const Lattice& lattice, VisibilitySource& source, std::span<std::uint64_t> visible) {
-    std::fill(known_.begin(), known_.end(), 0);
     std::fill(visible.begin(), visible.end(), 0);
+    known_.fill(0);
+    wanted_.fill(0);
     fractions_.clear();
-    settled_.clear();
-    next_.clear();
-    wanted_.clear();
-    std::size_t looked_at = 0;
-    pending_ = roots_[lattice.first_cell >= 16 ? 0 : lattice.first_cell >= 8 ? 1 : 2];
-    for (const std::uint32_t c : pending_) want(cells_[c]);
-    interpolated_.clear();
-    while (!pending_.empty()) {
-        source.look(wanted_, visible);
-        looked_at += wanted_.size();
-        wanted_.clear();
-        next_.clear();
-        for (const std::uint32_t c : pending_) {
-            const Cell& cell = cells_[c];
-            if (!cell.is_forced && agrees(cell, visible)) {
-                settled_.push_back(c);
-            } else if (!cell.is_forced && cell.extent() <= lattice.last_cell) {
-                interpolated_.push_back(c);
-            } else {
-                for (std::uint32_t i = 0; i < cell.child_count; ++i) {
-                    next_.push_back(cell.first_child + i);
-                    want(cells_[cell.first_child + i]);
-                }
-            }
-        }
-        if (next_.empty()) {
-            // A neighbour's finer nodes may contradict a cell that seemed settled: its shadow's edge is followed into it.
-            std::size_t kept = 0;
-            for (const std::uint32_t c : settled_) {
-                if (!agrees(cells_[c], visible)) {
-                    next_.push_back(c);
-                } else {
-                    settled_[kept++] = c;
-                }
-            }
-            settled_.resize(kept);
-        }
-        std::swap(pending_, next_);
+    const int first = lattice.first_cell;
+    for (int y = 0; y + first < points_.height; y += first) {
+        const std::uint64_t cells = in_use_[level_of(first)][y];
+        wanted_[y] |= cells | cells << first;
+        wanted_[y + first] |= cells | cells << first;
     }
-    for (const std::uint32_t c : settled_) {
-        const Cell& cell = cells_[c];
-        const bool is_visible = visible[cell.test[0] / points_.width] >> (cell.test[0] % points_.width) & 1;
-        const std::uint64_t columns = cell.columns();
-        for (int y = cell.y0; y <= cell.y1; ++y) {
-            const std::uint64_t fill = columns & points_.covered[y] & ~known_[y];
-            known_[y] |= fill;
-            if (is_visible) visible[y] |= fill;
+    std::size_t looked_at = look(source, visible);
+
+    Rows mixed;
+    for (int cell = first;; cell /= 2) {
+        const bool is_last = cell <= lattice.last_cell;
+        const int half = cell / 2;
+        for (;;) {
+            find_mixed(cell, visible, mixed);
+            for (int y = 0; y < points_.height; y += std::max(half, 1)) wanted_[y] = 0;
+            for (int y = 0; y + cell < points_.height; y += cell) {
+                const std::uint64_t m = mixed[y];
+                if (!m) continue;
+                std::uint64_t side = m | m << cell;
+                if (!is_last) {
+                    side |= m << half;
+                    wanted_[y + half] |= side;
+                }
+                wanted_[y] |= side;
+                wanted_[y + cell] |= side;
+            }
+            std::uint64_t any = 0;
+            for (int y = 0; y < points_.height; y += std::max(half, 1)) any |= wanted_[y] &= ~known_[y];
+            if (!any) break;
+            looked_at += look(source, visible);
         }
+        if (is_last) {
+            if (cell > 1) interpolate(cell, mixed, visible);
+            for (int fill = cell; fill > 1; fill /= 2) fill_next_level(fill, visible);
+            break;
+        }
+        fill_next_level(cell, visible);
     }
-    for (const std::uint32_t c : interpolated_) interpolate(cells_[c], visible);
+    for (int row = 0; row < points_.height; ++row) visible[row] &= points_.covered[row];
     return looked_at;
 }
 
