@@ -26,7 +26,7 @@ static_assert(std::endian::native == std::endian::little, "EXR is little-endian,
 
 constexpr int kRowsPerBlock = 16;  // of ZIP_COMPRESSION
 constexpr std::uint8_t kZipCompression = 3;
-// Level 1 to 4 differ by 2 % in size on lightmaps, and by 1.6 in speed (docs/formats.md).
+// Levels 1, 2, 4, 6 on a page of light: 1.2, 1.5, 1.65, 1.9 s of one core, and 62.7, 62.2, 62.2, 61.5 MB.
 constexpr int kDeflateLevel = 1;
 // Blocks that are compressed together before they are written: bounds the memory, and keeps 32 threads busy.
 constexpr std::size_t kBlocksAtOnce = 64;
