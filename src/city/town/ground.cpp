@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "city/town/delaunay.h"
 #include "city/town/styles.h"
 #include "city/town/town_random.h"
 
@@ -47,23 +48,33 @@ std::vector<Vec2d> edge_points(const Layout& layout, const Cell& cell, std::size
     return points;
 }
 
-/// Fills a star-shaped ring by rings that shrink towards its middle.
-void fill(ObjectBuilder& builder, const Relief& relief, std::vector<Vec2d> outer, int rings, const Finish& finish) {
-    const Vec2d centre = middle(outer);
-    const std::vector<Vec2d> rim = outer;
-    for (int r = 1; r < rings; ++r) {
-        const double share = 1.0 - static_cast<double>(r) / rings;
-        std::vector<Vec2d> inner;
-        for (const Vec2d& p : rim) inner.push_back(centre + (p - centre) * share);
-        for (std::size_t i = 0; i < outer.size(); ++i) {
-            const std::size_t next = (i + 1) % outer.size();
-            add_triangle(builder, relief, outer[i], outer[next], inner[next], finish);
-            add_triangle(builder, relief, outer[i], inner[next], inner[i], finish);
-        }
-        outer = std::move(inner);
+/// Fills a star-shaped ring from its middle.
+void fill(ObjectBuilder& builder, const Relief& relief, const std::vector<Vec2d>& rim, const Finish& finish) {
+    const Vec2d centre = middle(rim);
+    for (std::size_t i = 0; i < rim.size(); ++i)
+        add_triangle(builder, relief, rim[i], rim[(i + 1) % rim.size()], centre, finish);
+}
+
+/// Fills a convex ring with a net of kHillMesh, for steep ground.
+void fill_finely(ObjectBuilder& builder, const Relief& relief, const std::vector<Vec2d>& rim, const Finish& finish) {
+    std::vector<Vec2d> points = rim;
+    Vec2d lo = rim[0];
+    Vec2d hi = rim[0];
+    for (const Vec2d& p : rim) {
+        lo = glm::min(lo, p);
+        hi = glm::max(hi, p);
     }
-    for (std::size_t i = 0; i < outer.size(); ++i)
-        add_triangle(builder, relief, outer[i], outer[(i + 1) % outer.size()], centre, finish);
+    // A lattice of equilateral triangles, the same all over the hill, that keeps away from the rim.
+    const double row = kHillMesh * std::sqrt(0.75);
+    for (double j = std::ceil(lo.y / row); j * row < hi.y; ++j) {
+        const double shift = std::fmod(std::abs(j), 2.0) > 0.5 ? 0.5 : 0.0;
+        for (double i = std::ceil(lo.x / kHillMesh) - 1; (i + shift) * kHillMesh < hi.x; ++i) {
+            const Vec2d p{(i + shift) * kHillMesh, j * row};
+            if (depth_inside(rim, p) > 0.45 * kHillMesh) points.push_back(p);
+        }
+    }
+    for (const auto& [a, b, c] : delaunay(points))
+        add_triangle(builder, relief, points[a], points[b], points[c], finish);
 }
 
 /// The band between the land's edge and the block.
@@ -119,8 +130,12 @@ std::vector<CityObject> build_ground(const Layout& layout, const Cell& cell, con
             const std::vector<Vec2d> points = edge_points(layout, cell, i);
             rim.insert(rim.end(), points.begin(), points.end() - 1);
         }
-        fill(builder, relief, rim, cell.use == CellUse::hill ? 4 : 1,
-             ground_finish(SurfaceType::terrain, Picture::grass, kGrassPeriod));
+        const Finish grass = ground_finish(SurfaceType::terrain, Picture::grass, kGrassPeriod);
+        if (cell.use == CellUse::hill) {
+            fill_finely(builder, relief, rim, grass);
+        } else {
+            fill(builder, relief, rim, grass);
+        }
         objects.push_back(finished(builder));
         return objects;
     }
@@ -131,15 +146,14 @@ std::vector<CityObject> build_ground(const Layout& layout, const Cell& cell, con
         case CellUse::square:
         case CellUse::church: {
             ObjectBuilder square("square-" + cell.name, ObjectType::square, "TransportSquare");
-            fill(square, relief, cell.block.corners, 1,
-                 ground_finish(SurfaceType::road, Picture::slabs, kCobblePeriod));
+            fill(square, relief, cell.block.corners, ground_finish(SurfaceType::road, Picture::slabs, kCobblePeriod));
             objects.push_back(finished(square));
             break;
         }
         case CellUse::park:
         case CellUse::tower_site: {
             ObjectBuilder lawn("lawn-" + cell.name, ObjectType::plant_cover, "PlantCover");
-            fill(lawn, relief, cell.block.corners, 1,
+            fill(lawn, relief, cell.block.corners,
                  ground_finish(SurfaceType::vegetation, Picture::grass, kGrassPeriod));
             objects.push_back(finished(lawn));
             break;
@@ -147,7 +161,7 @@ std::vector<CityObject> build_ground(const Layout& layout, const Cell& cell, con
         default: {
             ObjectBuilder court("court-" + cell.name, ObjectType::land_use, "LandUse");
             const bool is_green = (cell.key >> 7) % 3 == 0;
-            fill(court, relief, cell.block.corners, 1,
+            fill(court, relief, cell.block.corners,
                  is_green ? ground_finish(SurfaceType::terrain, Picture::grass, kGrassPeriod)
                           : ground_finish(SurfaceType::terrain, Picture::gravel, kCobblePeriod));
             objects.push_back(finished(court));

@@ -11,11 +11,12 @@ namespace skybake::town {
 namespace {
 
 /// Heading of river segment number k, radians clockwise from north: two meanders of 0.9 and 2.3 km that add up to bends
-/// of at most 11° a corner.
+/// of at most 11° a corner. By the old town the river swings towards it and, north and south of it, away: it keeps
+/// clear of the castle hill.
 double heading(std::uint64_t seed, int k) {
     const double s = k * River::kStep;
-    return 0.42 * std::sin(2 * kPi * s / 900.0 + draw(seed, 1, 1, -0.5, 0.5)) +
-           0.22 * std::sin(2 * kPi * s / 2300.0 + draw(seed, 1, 2, 0.0, 2 * kPi));
+    return -0.42 * std::sin(2 * kPi * s / 900.0 + draw(seed, 1, 1, -0.2, 0.4)) +
+           0.14 * std::sin(2 * kPi * s / 2300.0 + draw(seed, 1, 2, 0.0, 2 * kPi));
 }
 
 Vec2d direction(double azimuth) {
@@ -45,7 +46,7 @@ River::River(std::uint64_t seed, double reach) {
     const int half =
         static_cast<int>(std::ceil(reach * 1.35 / kStep)) + 2;  // 1.35: the course's length against its chord, and more
     std::vector<Vec2d> south;
-    const Vec2d start{-168.0, -20.0};
+    const Vec2d start = kStart;
     Vec2d p = start - direction(heading(seed, 0)) * (0.5 * kStep);
     for (int k = -1; k >= -half; --k) {
         p -= direction(heading(seed, k)) * kStep;
@@ -94,7 +95,7 @@ double Relief::hill_foot(Vec2d p) {
 }
 
 double Relief::ground(Vec2d p) const {
-    double z = 350.0 + 4.0 * std::tanh((p.x + 168.0) / 420.0) + 0.0006 * p.y + 0.9 * noise(seed_, p);
+    double z = 350.0 + 4.0 * std::tanh((p.x - River::kStart.x) / 420.0) + 0.0006 * p.y + 0.9 * noise(seed_, p);
     const double r = glm::length(p - kHillMiddle);
     if (r < kHillReach) {
         const double foot = hill_foot(p);

@@ -19,6 +19,8 @@ class River {
     static constexpr double kBlockOffset = 43.0;  // centres of the blocks along the quays
     static constexpr double kClearance = 90.0;    // no other block has its centre nearer
 
+    static constexpr Vec2d kStart{-122.0, -20.0};  // middle of segment number 0
+
     River(std::uint64_t seed, double reach);
 
     int segment_count() const { return static_cast<int>(corners_.size()) - 1; }
