@@ -125,4 +125,18 @@ void keep_surfaces(Geometry& geometry, const std::vector<char>& keep) {
     geometry = std::move(kept);
 }
 
+void drop_unused_vertices(Geometry& geometry) {
+    constexpr std::uint32_t kUnused = 0xffffffffu;
+    std::vector<std::uint32_t> renumbered(geometry.vertices.size(), kUnused);
+    for (const std::uint32_t corner : geometry.corners) renumbered[corner] = 0;
+    std::uint32_t count = 0;
+    for (std::uint32_t i = 0; i < geometry.vertices.size(); ++i) {
+        if (renumbered[i] == kUnused) continue;
+        renumbered[i] = count;
+        geometry.vertices[count++] = geometry.vertices[i];
+    }
+    geometry.vertices.resize(count);
+    for (std::uint32_t& corner : geometry.corners) corner = renumbered[corner];
+}
+
 }  // namespace skybake

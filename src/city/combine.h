@@ -17,6 +17,9 @@ std::uint32_t combine(Geometry& geometry, const Geometry& other);
 /// stay.
 void keep_surfaces(Geometry& geometry, const std::vector<char>& keep);
 
+/// Removes vertices that no corner uses; the order of the others stays.
+void drop_unused_vertices(Geometry& geometry);
+
 /// A number that two surfaces share exactly when they have the same set of vertex positions (up to hash collisions of
 /// 64 bits), whichever corner is first and whichever way they run.
 std::uint64_t surface_key(const Geometry& geometry, const Surface& surface);

@@ -98,6 +98,8 @@ inline constexpr std::array kFindingCodes{
                 "Check the system that the file names, or pass --site LAT,LON."},
     FindingCode{"SB306", Severity::error, "files name different coordinate reference systems",
                 "Bring them into one system first, with cjio or GDAL."},
+    FindingCode{"SB307", Severity::warning, "coordinates have north before east",
+                "Nothing to do: x and y were exchanged. Its writer should store east, north, height."},
 
     FindingCode{"SB401", Severity::warning, "texture image is missing",
                 "Put the image where the file names it; until then the default albedo of the surface is used."},

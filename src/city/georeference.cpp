@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "city/finding_codes.h"
+#include "city/polygon.h"
 #include "city/repair_steps.h"
 
 namespace skybake {
@@ -152,6 +153,23 @@ Box3d vertex_box(const CityModel& city) {
     return box;
 }
 
+/// True when most of the solids' volume is inside out, as it is where x and y are exchanged.
+bool is_mirrored(const CityModel& city) {
+    double volume = 0.0;
+    for (const CityObject& object : city.objects) {
+        const Geometry& g = object.geometry;
+        for (const Shell& shell : g.shells) {
+            if (shell.kind != Shell::Kind::outer) continue;
+            const Vec3d origin = g.vertices[ring_of(g, g.surfaces[shell.surface_begin].ring_begin)[0]];
+            for (std::uint32_t s = shell.surface_begin; s < shell.surface_end; ++s) {
+                const Vec3d corner = g.vertices[ring_of(g, g.surfaces[s].ring_begin)[0]];
+                volume += glm::dot(corner - origin, surface_area_vector(g, g.surfaces[s]));
+            }
+        }
+    }
+    return volume < 0.0;
+}
+
 /// Moves all vertices to a transverse Mercator of scale 1 about `center_degrees`. `to_geographic` takes x east, y
 /// north.
 bool project_to_metres(PJ_CONTEXT* context, CityModel& city, PJ* to_geographic, bool swap, double z_unit,
@@ -207,8 +225,16 @@ Georeference georeference(CityModel& city, FindingLog& findings) {
     const char* name = proj_get_name(crs.get());
     result.crs_name = fmt::format("{}{}{}", code, code.empty() ? "" : " ", name ? name : "");
 
-    const Box3d box = vertex_box(city);
+    Box3d box = vertex_box(city);
     if (box.is_empty()) return result;
+    if (type == PJ_TYPE_PROJECTED_CRS && is_north_first(context, horizontal.get()) && is_mirrored(city)) {
+        for (CityObject& object : city.objects) {
+            for (Vec3d& p : object.geometry.vertices) std::swap(p.x, p.y);
+        }
+        box = vertex_box(city);
+        add("SB307",
+            fmt::format("solids are inside out and {} has north first; x and y were exchanged.", result.crs_name));
+    }
     Ellipsoid ellipsoid;
     if (const PjPtr e{proj_get_ellipsoid(context, horizontal.get())}) {
         proj_ellipsoid_get_parameters(context, e.get(), &ellipsoid.a, nullptr, nullptr, &ellipsoid.inverse_flattening);

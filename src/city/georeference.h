@@ -23,7 +23,9 @@ struct Georeference {
 
 /// Brings the city into metres that are true metres and tells where it lies. A projected CRS stays as it is. Geographic and Web
 /// Mercator coordinates are projected to a transverse Mercator about the city's own centre (findings SB301, SB302); a CRS that PROJ
-/// does not know, or none, leaves the coordinates and gives no site (SB303, SB304).
+/// does not know, or none, leaves the coordinates and gives no site (SB303, SB304); so do coordinates outside the CRS's area of use
+/// (SB305). Other projections whose scale is off by more than 0.1 %, feet included, are treated like Web Mercator (SB302). Where the
+/// CRS has its north axis first and the solids are inside out, x and y are exchanged first (SB307). Thread-safe.
 Georeference georeference(CityModel& city, FindingLog& findings);
 
 }  // namespace skybake

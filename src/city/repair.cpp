@@ -90,6 +90,12 @@ void in_tasks(Count count, FindingLog& findings, Progress& progress, F&& f) {
 
 }  // namespace
 
+void drop_bad_coordinates(CityModel& city, std::size_t first_object, FindingLog& findings) {
+    for (std::size_t i = first_object; i < city.objects.size(); ++i) {
+        repair_steps::drop_bad_coordinates(city.objects[i], findings);
+    }
+}
+
 void repair_offset(CityModel& city, std::size_t first_object, const Vec3d& translate,
                    const std::optional<Box3d>& stated, const std::string& file, FindingLog& findings) {
     if (!stated || stated->is_empty() || !std::isfinite(glm::length(stated->size()))) return;

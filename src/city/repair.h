@@ -12,6 +12,9 @@
 
 namespace skybake {
 
+/// Leaves out surfaces of the objects from `first_object` on whose coordinates are no place on Earth (SB211).
+void drop_bad_coordinates(CityModel& city, std::size_t first_object, FindingLog& findings);
+
 /// Recognises writers that stored full coordinates and a transform besides, so that `translate` is in them twice
 /// (SB201): the objects from `first_object` on lie outside the stated extent and would lie in it without `translate`.
 /// Moves them there. An extent that the coordinates do not keep to in another way is SB215. Coordinates that are no

@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t kMostSolids = 200;
 constexpr std::size_t kMostTriangles = 2000;
 /// Bodies that share less than this along an axis touch; they do not overlap. Metres.
-constexpr double kLeastOverlap = 0.05;
+constexpr double kLeastOverlap = 0.005;
 
 struct Body {
     const CityObject* object = nullptr;

@@ -9,12 +9,16 @@
 
 namespace skybake::repair_steps {
 
-/// False for what is no place in metres or degrees: not finite, beyond 10⁸ m, or a height beyond 100 km. Files use such
-/// numbers for "no data" (-2147483.648: the least 32-bit integer, in millimetres; 10³⁸).
+/// False for what is no place in metres or degrees: not finite, or beyond 10⁹ m. Files use such numbers for "no data"
+/// (10³⁸).
 bool is_place(const Vec3d& p);
 
-/// Vertices: SB211, SB210; then rings: SB205, SB204; then surfaces twice there: SB202.
+/// SB211: surfaces with a corner that is no place, or lies further from the median of the object's vertices than any
+/// object reaches
+/// (-2147483.648, the least 32-bit integer in millimetres, stands for "no height" in real files). Their vertices go,
+/// too.
 void drop_bad_coordinates(CityObject& object, FindingLog& findings);
+/// Vertices: SB210; then rings: SB205, SB204; then surfaces twice there: SB202.
 void merge_vertices(CityObject& object, FindingLog& findings);
 void clean_rings(CityObject& object, FindingLog& findings);
 void drop_repeated_surfaces(CityObject& object, FindingLog& findings);

@@ -63,6 +63,10 @@ class VertexGrid {
     std::unordered_map<std::uint64_t, std::uint32_t> cells_;
 };
 
+/// No object is wider or higher than this about its middle. Metres.
+constexpr double kWidestObject = 500'000.0;
+constexpr double kHighestObject = 20'000.0;
+
 struct Corner {
     std::uint32_t vertex;
     Vec2f uv;
@@ -115,28 +119,49 @@ bool clean_ring(std::vector<Corner>& ring, const std::vector<Vec3d>& vertices) {
 }  // namespace
 
 bool is_place(const Vec3d& p) {
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z) && std::abs(p.x) <= 1e8 &&
-           std::abs(p.y) <= 1e8 && std::abs(p.z) <= 1e5;
+    const auto is_good = [](double v) { return std::isfinite(v) && std::abs(v) <= 1e9; };
+    return is_good(p.x) && is_good(p.y) && is_good(p.z);
 }
 
 void drop_bad_coordinates(CityObject& object, FindingLog& findings) {
     Geometry& g = object.geometry;
-    const auto bad = std::find_if(g.vertices.begin(), g.vertices.end(), [](const Vec3d& p) { return !is_place(p); });
-    if (bad == g.vertices.end()) return;
+    if (g.vertices.empty()) return;
+    // The middle of what is a place at all; a single wild vertex does not move a median.
+    Vec3d median(0.0);
+    std::vector<double> values;
+    for (int axis = 0; axis < 3; ++axis) {
+        values.clear();
+        for (const Vec3d& p : g.vertices) {
+            if (is_place(p)) values.push_back(p[axis]);
+        }
+        if (values.empty()) break;
+        const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+        std::nth_element(values.begin(), middle, values.end());
+        median[axis] = *middle;
+    }
+    const auto is_bad = [&](const Vec3d& p) {
+        const Vec3d d = glm::abs(p - median);
+        return !is_place(p) || d.x > kWidestObject || d.y > kWidestObject || d.z > kHighestObject;
+    };
     std::vector<char> keep(g.surfaces.size(), 1);
     std::size_t dropped = 0;
+    Vec3d place(0.0);
     for (std::size_t i = 0; i < g.surfaces.size(); ++i) {
-        for (std::uint32_t c = g.ring_first[g.surfaces[i].ring_begin];
-             keep[i] && c < g.ring_first[g.surfaces[i].ring_end]; ++c) {
-            if (!is_place(g.vertices[g.corners[c]])) keep[i] = 0;
+        const Surface& surface = g.surfaces[i];
+        for (std::uint32_t c = g.ring_first[surface.ring_begin]; keep[i] && c < g.ring_first[surface.ring_end]; ++c) {
+            const Vec3d& p = g.vertices[g.corners[c]];
+            if (!is_bad(p)) continue;
+            keep[i] = 0;
+            if (dropped++ == 0) place = p;
         }
-        dropped += !keep[i];
     }
+    if (dropped == 0) return;
     findings.add(
         make_finding("SB211", object.where,
                      fmt::format("a vertex lies at ({}, {}, {}); {} of {} surfaces with such vertices are left out.",
-                                 bad->x, bad->y, bad->z, dropped, g.surfaces.size())));
+                                 place.x, place.y, place.z, dropped, g.surfaces.size())));
     keep_surfaces(g, keep);
+    drop_unused_vertices(g);
 }
 
 void merge_vertices(CityObject& object, FindingLog& findings) {

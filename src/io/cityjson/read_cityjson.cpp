@@ -109,7 +109,7 @@ class FileReader {
         if (const std::string format = foreign_format(head); !format.empty()) {
             throw InputError(fmt::format(
                 "{}: is {}, which this version does not read. It reads CityJSON 1.0, 1.1, 2.0 and CityJSONSeq; "
-                "citygml-tools converts CityGML to it, cjio OBJ.",
+                "citygml-tools turns CityGML into it.",
                 path_.string(), format));
         }
         progress_.begin("read " + name_, std::max<std::uint64_t>(file_.bytes, 1));
@@ -575,6 +575,7 @@ class FileReader {
         }
         resolve_families(city_, first_object_, has_only_flat_, findings_);
         make_ids_unique(city_, first_object_, findings_);
+        drop_bad_coordinates(city_, first_object_, findings_);
         repair_offset(city_, first_object_, transform_.translate, stated_extent_, name_, findings_);
 
         for (const std::string& lod : city_.lods) lods_.insert(lod);
