@@ -57,7 +57,7 @@ export class Panorama {
 
 /** Luminance of far level ground under this sky and sun, kcd/m²: E ρ/π. The albedo of mixed land seen from afar. */
 export function groundRadiance(skyKlx: Vec3, sunNormalKlx: Vec3, sunSinElevation: number): [number, number, number] {
-  const albedo: Vec3 = [0.17, 0.165, 0.13]; // fields and roofs from afar: near MODIS' 0.15–0.2 for mixed land; the tint is by eye
+  const albedo: Vec3 = [0.22, 0.215, 0.19]; // fields, streets and roofs from afar, greyed by haze; by eye
   const sine = Math.max(0, sunSinElevation);
   return [0, 1, 2].map((c) => ((albedo[c] ?? 0) / Math.PI) * ((skyKlx[c] ?? 0) + sine * (sunNormalKlx[c] ?? 0))) as [number, number, number];
 }

@@ -100,10 +100,11 @@ export class Ground {
         let narrowest = Infinity;
         for (let k = 0; k < 24; ++k) {
           const angle = (k / 24) * 2 * Math.PI;
-          const { distance } = this.ahead(eye, new THREE.Vector3(Math.sin(angle), 0, -Math.cos(angle)), 80);
-          narrowest = Math.min(narrowest, distance);
-          // A view that ends at a house beats one that runs out of the model.
-          const worth = distance >= 80 ? 20 : distance;
+          const gaze = new THREE.Vector3(Math.sin(angle), 0, -Math.cos(angle));
+          narrowest = Math.min(narrowest, this.ahead(eye, gaze, 4).distance);
+          // A view that ends at a house (a little above the eye's height) beats one that runs out of the model.
+          const { distance } = this.ahead(eye, gaze.setY(0.1).normalize(), 100);
+          const worth = distance >= 100 ? 5 : distance;
           if (worth > longest) {
             longest = worth;
             yaw = angle;

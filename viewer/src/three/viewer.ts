@@ -61,6 +61,7 @@ export class Viewer {
   ) {
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: options.antialias, powerPreference: 'high-performance' });
     this.renderer.outputColorSpace = THREE.SRGBColorSpace;
+    // Of AgX, Khronos neutral and ACES the first keeps shadows that only the sky lights readable beside sunlit walls.
     this.renderer.toneMapping = THREE.AgXToneMapping;
     this.renderer.toneMappingExposure = 1; // the shaders multiply by uExposure themselves
     this.renderer.info.autoReset = true;
@@ -153,8 +154,8 @@ export class Viewer {
     return this.shared.uExposure.value;
   }
 
-  set toneMapping(name: 'agx' | 'none' | 'neutral' | 'aces') {
-    this.renderer.toneMapping = {agx: THREE.AgXToneMapping, none: THREE.NoToneMapping, neutral: THREE.NeutralToneMapping, aces: THREE.ACESFilmicToneMapping}[name];
+  set toneMapping(name: 'agx' | 'none') {
+    this.renderer.toneMapping = name === 'agx' ? THREE.AgXToneMapping : THREE.NoToneMapping;
     this.changed();
   }
 

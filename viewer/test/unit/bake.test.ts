@@ -1,0 +1,93 @@
+import fs from 'node:fs';
+import os from 'node:os';
+import path from 'node:path';
+import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+import { Bake, parseManifest, parseScales } from '../../src/core/bake';
+import type { Manifest } from '../../src/core/generated/manifest';
+import { LoadError } from '../../src/core/load_error';
+import { writeFixture } from '../support/fixture';
+import { serve, type Host } from '../support/static_host';
+
+let folder: string;
+let manifest: Manifest;
+let host: Host;
+
+beforeAll(async () => {
+  folder = fs.mkdtempSync(path.join(os.tmpdir(), 'skybake-bake-'));
+  manifest = writeFixture(folder);
+  host = await serve([folder]);
+});
+
+afterAll(async () => {
+  await host.close();
+  fs.rmSync(folder, { recursive: true });
+});
+
+describe('parseManifest', () => {
+  const url = 'http://host/manifest.json';
+  test('takes what follows the schema', () => expect(parseManifest(url, JSON.stringify(manifest))).toEqual(manifest));
+
+  test.each([
+    ['a missing part', { ...manifest }, 'instants'],
+    ['a wrong type', { ...manifest }, 'charts'],
+  ])('names the place of %s', (what, _, place) => {
+    const broken: Record<string, unknown> = { ...structuredClone(manifest) };
+    if (what === 'a missing part') delete broken[place];
+    else broken[place] = 'many';
+    expect(() => parseManifest(url, JSON.stringify(broken))).toThrow(new RegExp(place));
+  });
+
+  test('does not take numbers that no city has', () => {
+    const broken = structuredClone(manifest);
+    broken.instants[0]!.exposure_hint = 0;
+    expect(() => parseManifest(url, JSON.stringify(broken))).toThrow(/exposure_hint/);
+  });
+
+  test('tells another version apart from a broken file', () => expect(() => parseManifest(url, '{"version": 2}')).toThrow(/version 2/));
+  test('keeps the address', () => {
+    expect.assertions(1);
+    try {
+      parseManifest(url, 'no json');
+    } catch (error) {
+      expect((error as LoadError).url).toBe(url);
+    }
+  });
+});
+
+describe('parseScales', () => {
+  test('reads little-endian pairs', () => {
+    const bytes = new Uint8Array([0, 0, 0x80, 0x3f, 0, 0, 0, 0x40]);
+    expect([...parseScales('s', bytes, 1)]).toEqual([1, 2]);
+  });
+  test('refuses another number of charts', () => expect(() => parseScales('s', new Uint8Array(8), 2)).toThrow(/8 bytes where 16/));
+});
+
+describe('Bake', () => {
+  test('loads an instant and counts its bytes', async () => {
+    let bytes = 0;
+    const bake = await Bake.load(`${host.url}manifest.json`, () => undefined);
+    const light = await bake.loadInstant(1, bake.manifest.charts, (count) => (bytes += count));
+    expect(light.pages).toHaveLength(manifest.pages.length);
+    expect(light.scales).toHaveLength(2 * manifest.charts);
+    expect(bytes).toBe(bake.bytesOfInstant(1));
+  });
+
+  test('a file of another size than announced is a damaged copy', async () => {
+    const bake = await Bake.load(`${host.url}manifest.json`, () => undefined);
+    const cut = new Bake({ ...bake.manifest, files: bake.manifest.files.map((f) => (f.name === 'light/i0_scales.bin' ? { ...f, bytes: f.bytes + 1 } : f)) }, bake.manifestUrl);
+    await expect(cut.loadInstant(0, cut.manifest.charts, () => undefined)).rejects.toThrow(/Copy the bake again/);
+  });
+
+  test('a missing file is told with its address', async () => {
+    const bake = await Bake.load(`${host.url}manifest.json`, () => undefined);
+    await expect(bake.fetch('light/none.png', () => undefined)).rejects.toMatchObject({ url: `${host.url}light/none.png` });
+  });
+
+  test('an overtaken load stops', async () => {
+    const bake = await Bake.load(`${host.url}manifest.json`, () => undefined);
+    const abort = new AbortController();
+    const loading = bake.loadInstant(0, bake.manifest.charts, () => undefined, abort.signal);
+    abort.abort();
+    await expect(loading).rejects.toMatchObject({ name: 'AbortError' });
+  });
+});

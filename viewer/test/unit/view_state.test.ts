@@ -1,0 +1,29 @@
+import { expect, test } from 'vitest';
+import { clampEv, exposureFactor } from '../../src/core/exposure';
+import { formatViewState, parseViewState, type ViewState } from '../../src/core/view_state';
+
+const state: ViewState = { mode: 'walk', position: [1.5, -2.25, 1.7], target: [3, 4, -0.5], picture: 'light', instant: 2, ev: -0.5 };
+
+test('a link gives back what was sent', () => expect(parseViewState(formatViewState(state))).toEqual(state));
+
+test.each([
+  ['', {}],
+  ['#', {}],
+  ['#v=2&m=walk', {}],
+  ['#v=1&m=swim&s=x-ray&i=-1&ev=much', {}],
+  ['#v=1&p=1,2&t=0,0,0', {}],
+  ['#v=1&p=1,2,3', {}],
+  ['#v=1&p=1,two,3&t=0,0,0', {}],
+  ['#v=1&m=orbit&i=3', { mode: 'orbit', instant: 3 }],
+])('of %j only what makes sense is taken', (hash, expected) => expect(parseViewState(hash)).toEqual(expected));
+
+test('one stop doubles the exposure', () => {
+  expect(exposureFactor(0.1, 1, 'lit') / exposureFactor(0.1, 0, 'lit')).toBeCloseTo(2, 12);
+  expect(exposureFactor(0.2, 0, 'lit') / exposureFactor(0.1, 0, 'lit')).toBeCloseTo(2, 12);
+});
+
+test('the correction stays within its slider and on its steps', () => {
+  expect(clampEv(99)).toBe(4);
+  expect(clampEv(-99)).toBe(-4);
+  expect(clampEv(0.04)).toBe(0);
+});
