@@ -56,17 +56,44 @@ PerezClass perez_class(double dni, double dhi, double sun_zenith_rad, double ext
     return perez;
 }
 
-double diffuse_luminous_efficacy(double dni, double dhi, double sun_zenith_rad, double extraterrestrial_w_m2,
-                                 double precipitable_water_cm) {
+namespace {
+
+/// One row of table 4 (diffuse), lm W⁻¹; `bin` 1…8.
+double efficacy_of_bin(int bin, double zenith, double brightness, double precipitable_water_cm) {
     constexpr double kCoefficients[8][4] = {{97.24, -0.46, 12.00, -8.91},   {107.22, 1.15, 0.59, -3.95},
                                             {104.97, 2.96, -5.53, -8.77},   {102.39, 5.59, -13.95, -13.90},
                                             {100.71, 5.94, -22.75, -23.74}, {106.42, 3.83, -36.15, -28.83},
                                             {141.88, 1.90, -53.24, -14.03}, {152.23, 0.35, -45.27, -7.98}};
-    const double zenith = std::min(sun_zenith_rad, radians_from_degrees(87.0));
-    const PerezClass perez = perez_class(dni, dhi, zenith, extraterrestrial_w_m2);
-    const double(&k)[4] = kCoefficients[perez.bin - 1];
+    const double(&k)[4] = kCoefficients[bin - 1];
     return k[0] + k[1] * precipitable_water_cm + k[2] * std::cos(zenith) +
-           k[3] * std::log(std::clamp(perez.brightness, 0.01, 0.6));
+           k[3] * std::log(std::clamp(brightness, 0.01, 0.6));
+}
+
+double efficacy_zenith(double sun_zenith_rad) {
+    return std::min(sun_zenith_rad, radians_from_degrees(87.0));
+}
+
+}  // namespace
+
+double diffuse_luminous_efficacy(double dni, double dhi, double sun_zenith_rad, double extraterrestrial_w_m2,
+                                 double precipitable_water_cm) {
+    const double zenith = efficacy_zenith(sun_zenith_rad);
+    const PerezClass perez = perez_class(dni, dhi, zenith, extraterrestrial_w_m2);
+    return efficacy_of_bin(perez.bin, zenith, perez.brightness, precipitable_water_cm);
+}
+
+double smooth_diffuse_luminous_efficacy(double dni, double dhi, double sun_zenith_rad, double extraterrestrial_w_m2,
+                                        double precipitable_water_cm) {
+    const double zenith = efficacy_zenith(sun_zenith_rad);
+    const PerezClass perez = perez_class(dni, dhi, zenith, extraterrestrial_w_m2);
+    // Geometric middles of the bins 1…7; 8, which is open above, is fully reached at ε = 8.
+    constexpr double kMiddles[8] = {1.032, 1.145, 1.358, 1.710, 2.337, 3.550, 5.282, 8.0};
+    const double clearness = std::clamp(perez.clearness, kMiddles[0], kMiddles[7]);
+    int below = 0;
+    while (below < 6 && clearness >= kMiddles[below + 1]) ++below;
+    const double share = std::log(clearness / kMiddles[below]) / std::log(kMiddles[below + 1] / kMiddles[below]);
+    return (1.0 - share) * efficacy_of_bin(below + 1, zenith, perez.brightness, precipitable_water_cm) +
+           share * efficacy_of_bin(below + 2, zenith, perez.brightness, precipitable_water_cm);
 }
 
 double twilight_illuminance(double sun_elevation_rad) {

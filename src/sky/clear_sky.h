@@ -27,6 +27,11 @@ ClearSkyIrradiance clear_sky_irradiance(double turbidity, double sun_zenith_rad,
 double diffuse_luminous_efficacy(double dni, double dhi, double sun_zenith_rad, double extraterrestrial_w_m2,
                                  double precipitable_water_cm);
 
+/// The same without the jumps of up to 15 % at the borders of the bins: linear in ln ε between the bins' geometric
+/// middles. So a sky that is computed for a series of instants brightens and fades without steps.
+double smooth_diffuse_luminous_efficacy(double dni, double dhi, double sun_zenith_rad, double extraterrestrial_w_m2,
+                                        double precipitable_water_cm);
+
 /// Luminous efficacy of an overcast or uniform sky, lm W⁻¹: what the formula above gives for ε = 1 and Δ = 0.2…0.4
 /// (113…117).
 inline constexpr double kOvercastEfficacy = 115.0;

@@ -136,7 +136,8 @@ PreethamSky levelled_sky(const PreethamSettings& settings, const SeenSun& sun, c
     const ClearSkyIrradiance day = clear_sky_irradiance(settings.turbidity, day_zenith, sun.distance_au);
     const double dhi = settings.level == SkyLevel::dhi && settings.dhi_w_m2 > 0.0 ? settings.dhi_w_m2 : day.dhi;
     const double extraterrestrial = kSolarConstant / (sun.distance_au * sun.distance_au);
-    const double efficacy = diffuse_luminous_efficacy(day.dni, dhi, day_zenith, extraterrestrial, kPrecipitableWaterCm);
+    const double efficacy =
+        smooth_diffuse_luminous_efficacy(day.dni, dhi, day_zenith, extraterrestrial, kPrecipitableWaterCm);
 
     PreethamSky sky = preetham_sky(settings.turbidity, direction);
     const double dusk = twilight_illuminance(std::min(sun.elevation_rad, 0.0));

@@ -35,6 +35,19 @@ TEST(LuminousEfficacy, AgreesWithGendaylit) {
     }
 }
 
+// Truth: in the middle of a bin the smooth form is Perez's own, and it crosses a border without a step.
+TEST(LuminousEfficacy, SmoothFormMeetsTheBins) {
+    const double zenith = 1.0;
+    const double extraterrestrial = 1361.1;
+    const auto dni_for = [&](double clearness, double dhi) {
+        return dhi * (clearness - 1.0) * (1.0 + 1.041 * zenith * zenith * zenith);
+    };
+    EXPECT_NEAR(smooth_diffuse_luminous_efficacy(dni_for(3.55, 90.0), 90.0, zenith, extraterrestrial, 2.0),
+                diffuse_luminous_efficacy(dni_for(3.55, 90.0), 90.0, zenith, extraterrestrial, 2.0), 1e-9);
+    EXPECT_NEAR(smooth_diffuse_luminous_efficacy(dni_for(4.4999, 90.0), 90.0, zenith, extraterrestrial, 2.0),
+                smooth_diffuse_luminous_efficacy(dni_for(4.5001, 90.0), 90.0, zenith, extraterrestrial, 2.0), 0.01);
+}
+
 // Truth: physics. More aerosol takes from the beam and gives to the sky; a lower sun gives less of both; nothing
 // exceeds what arrives from outside.
 TEST(ClearSky, BehavesLikeAnAtmosphere) {
@@ -74,7 +87,8 @@ TEST(ClearSky, LevelIsNearerToHosekWilkieThanThePublishedOne) {
         if (row.number("albedo") != 0.2 || turbidity < 2.0 || turbidity > 6.0 || elevation < 5.0) continue;
         const double zenith = radians_from_degrees(90.0 - elevation);
         const ClearSkyIrradiance clear = clear_sky_irradiance(turbidity, zenith, 1.0);
-        const double ours = clear.dhi * diffuse_luminous_efficacy(clear.dni, clear.dhi, zenith, kSolarConstant, 2.0);
+        const double ours =
+            clear.dhi * smooth_diffuse_luminous_efficacy(clear.dni, clear.dhi, zenith, kSolarConstant, 2.0);
         const double hosek = row.number("Eh_diffuse_lux_XYZ");
         const double published =
             horizontal_illuminance(preetham_sky(turbidity, {std::sin(zenith), 0.0, std::cos(zenith)}));

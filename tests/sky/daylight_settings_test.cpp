@@ -113,7 +113,7 @@ TEST(MakeDaylights, LevelsOfThePreethamSky) {
     const ClearSkyIrradiance clear = clear_sky_irradiance(3.0, zenith, 1.0);
     const HorizontalDiffuse by_clear_sky = horizontal_diffuse(only(with_sun("preetham", 40.0), findings).sky);
     EXPECT_NEAR(by_clear_sky.irradiance_w_m2, clear.dhi, 1e-3 * clear.dhi);
-    const double lux = clear.dhi * diffuse_luminous_efficacy(clear.dni, clear.dhi, zenith, kSolarConstant, 2.0);
+    const double lux = clear.dhi * smooth_diffuse_luminous_efficacy(clear.dni, clear.dhi, zenith, kSolarConstant, 2.0);
     EXPECT_NEAR(luminance(by_clear_sky.illuminance), lux, 1e-3 * lux);
 
     const HorizontalDiffuse by_dhi = horizontal_diffuse(only(with_sun("preetham:level=dhi=77", 40.0), findings).sky);
@@ -125,6 +125,23 @@ TEST(MakeDaylights, LevelsOfThePreethamSky) {
         luminance(horizontal_diffuse(only(with_sun("preetham:level=published", 40.0), findings).sky).illuminance);
     EXPECT_GT(published, lux);
     EXPECT_EQ(findings.count("SB603"), 1u);
+}
+
+// Truth: continuity. A sun that rises by a quarter of a degree changes the sky by a little, without the jumps of
+// Perez's bins.
+TEST(MakeDaylights, LevelHasNoSteps) {
+    for (const char* sky : {"preetham:turbidity=3", "preetham:turbidity=6"}) {
+        FindingLog findings;
+        double last = 0.0;
+        for (double elevation = 8.0; elevation < 85.0; elevation += 0.25) {
+            const double lux = luminance(horizontal_diffuse(only(with_sun(sky, elevation), findings).sky).illuminance);
+            if (last > 0.0) {
+                EXPECT_LT(std::abs(lux / last - 1.0), 0.02 * std::max(1.0, 20.0 / elevation))
+                    << sky << ' ' << elevation;
+            }
+            last = lux;
+        }
+    }
 }
 
 // Truth: continuity. The sky's illuminance falls steadily through sunset, and stays finite and non-negative.
