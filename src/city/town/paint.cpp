@@ -1,28 +1,27 @@
 #include "city/town/paint.h"
 
+#include <oneapi/tbb/parallel_for.h>
+
+#include <functional>
+
+#include "base/hash_rng.h"
+#include "city/town/paint_facades.h"
+#include "city/town/paint_grounds.h"
 #include "city/town/styles.h"
 
 namespace skybake::town {
 
-std::vector<NamedImage> paint_pictures(std::uint64_t) {
-    std::vector<NamedImage> images;
-    const char* names[] = {"facade_ochre",  "facade_cream",   "facade_rose",   "facade_green", "facade_grey",
-                           "facade_yellow", "plaster_ochre",  "plaster_cream", "plaster_rose", "plaster_green",
-                           "plaster_grey",  "plaster_yellow", "tiles_red",     "tiles_brown",  "tiles_old",
-                           "cobbles",       "slabs",          "gravel",        "grass",        "water",
-                           "masonry",       "church",         "copper",        "clock",        "glass"};
-    const std::uint8_t rgb[][3] = {{222, 186, 120}, {236, 222, 190}, {220, 170, 150},
-                                   {180, 196, 160}, {190, 190, 186}, {238, 214, 140}};
-    const std::uint8_t others[][3] = {{168, 86, 60},   {140, 80, 60},   {150, 100, 80},  {130, 126, 120},
-                                      {150, 145, 138}, {160, 150, 135}, {96, 120, 60},   {70, 95, 95},
-                                      {150, 140, 125}, {230, 215, 175}, {120, 160, 140}, {220, 215, 200},
-                                      {120, 140, 160}};
-    for (int i = 0; i < static_cast<int>(Picture::count); ++i) {
-        NamedImage image{std::string(names[i]) + ".png", 16, 16, {}};
-        const std::uint8_t* c = i < 12 ? rgb[i % 6] : others[i - 12];
-        for (int p = 0; p < 256; ++p) image.pixels.insert(image.pixels.end(), c, c + 3);
-        images.push_back(std::move(image));
-    }
+std::vector<NamedImage> paint_pictures(std::uint64_t seed) {
+    std::vector<std::function<NamedImage(std::uint64_t)>> painters;
+    for (int i = 0; i < kFacadeColours; ++i) painters.emplace_back([i](std::uint64_t s) { return paint_facade(s, i); });
+    for (int i = 0; i < kFacadeColours; ++i)
+        painters.emplace_back([i](std::uint64_t s) { return paint_plaster(s, i); });
+    for (int i = 0; i < kRoofTiles; ++i) painters.emplace_back([i](std::uint64_t s) { return paint_tiles(s, i); });
+    painters.insert(painters.end(), {paint_cobbles, paint_slabs, paint_gravel, paint_grass, paint_water, paint_masonry,
+                                     paint_church, paint_copper, paint_clock, paint_glass});
+    std::vector<NamedImage> images(painters.size());
+    oneapi::tbb::parallel_for(std::size_t{0}, painters.size(),
+                              [&](std::size_t i) { images[i] = painters[i](hash_combine(seed, i)); });
     return images;
 }
 
