@@ -153,8 +153,9 @@ Box3d vertex_box(const CityModel& city) {
     return box;
 }
 
-/// True when most of the solids' volume is inside out, as it is where x and y are exchanged.
-bool is_mirrored(const CityModel& city) {
+/// The volume that the solids enclose, in the units of the file: negative when they are inside out, as they are where x
+/// and y are exchanged; 0 without solids.
+double enclosed_volume(const CityModel& city) {
     double volume = 0.0;
     for (const CityObject& object : city.objects) {
         const Geometry& g = object.geometry;
@@ -167,7 +168,7 @@ bool is_mirrored(const CityModel& city) {
             }
         }
     }
-    return volume < 0.0;
+    return volume;
 }
 
 /// Moves all vertices to a transverse Mercator of scale 1 about `center_degrees`. `to_geographic` takes x east, y
@@ -227,7 +228,7 @@ Georeference georeference(CityModel& city, FindingLog& findings) {
 
     Box3d box = vertex_box(city);
     if (box.is_empty()) return result;
-    if (type == PJ_TYPE_PROJECTED_CRS && is_north_first(context, horizontal.get()) && is_mirrored(city)) {
+    if (type == PJ_TYPE_PROJECTED_CRS && is_north_first(context, horizontal.get()) && enclosed_volume(city) < 0.0) {
         for (CityObject& object : city.objects) {
             for (Vec3d& p : object.geometry.vertices) std::swap(p.x, p.y);
         }
@@ -253,9 +254,14 @@ Georeference georeference(CityModel& city, FindingLog& findings) {
     const PjPtr to_wgs84 = wgs84 ? transformation(context, horizontal.get(), wgs84.get()) : nullptr;
     const Vec2d center(box.center());
     const bool is_degrees = is_geographic(type);
-    // Files keep to the system's order of axes, latitude first, or write longitude first; the area of use tells which.
+    // Files keep to the system's order of axes, latitude first, or write longitude first. Solids tell, which are inside
+    // out in the wrong order; and the area of use.
     bool swap = is_degrees && is_north_first(context, horizontal.get());
-    if (swap && !is_in_area({center.y, center.x}) && is_in_area(center)) swap = false;
+    if (const double volume = swap ? enclosed_volume(city) : 0.0; volume != 0.0) swap = volume < 0.0;
+    if (is_degrees && !is_in_area(swap ? Vec2d(center.y, center.x) : center) &&
+        is_in_area(swap ? center : Vec2d(center.y, center.x))) {
+        swap = !swap;
+    }
     const PjPtr to_geodetic = is_degrees ? nullptr
                               : geodetic ? transformation(context, horizontal.get(), geodetic.get())
                                          : nullptr;

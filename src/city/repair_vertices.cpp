@@ -212,8 +212,6 @@ void clean_rings(CityObject& object, FindingLog& findings) {
             Surface surface = g.surfaces[s];
             const std::uint32_t ring_begin = static_cast<std::uint32_t>(clean.ring_first.size() - 1);
             bool is_good = true;
-            Vec3d area(0.0);
-            double longest = 0.0;
             for (std::uint32_t r = surface.ring_begin; r < surface.ring_end; ++r) {
                 ring.clear();
                 for (std::uint32_t c = g.ring_first[r]; c < g.ring_first[r + 1]; ++c)
@@ -230,11 +228,16 @@ void clean_rings(CityObject& object, FindingLog& findings) {
                 }
                 clean.ring_first.push_back(static_cast<std::uint32_t>(clean.corners.size()));
                 if (r == surface.ring_begin) {
-                    area = ring_area_vector(clean, ring_begin);
-                    for (const Corner& corner : ring)
-                        longest = std::max(
-                            longest, glm::distance(clean.vertices[corner.vertex], clean.vertices[ring[0].vertex]));
-                    if (!(glm::length(area) > kLeastWidth * longest)) {
+                    // Without signs: a bow tie's halves may cancel, and it is no line.
+                    const Vec3d first = clean.vertices[ring[0].vertex];
+                    double area = 0.0;
+                    double longest = 0.0;
+                    for (std::size_t i = 1; i < ring.size(); ++i) {
+                        const Vec3d arm = clean.vertices[ring[i].vertex] - first;
+                        area += 0.5 * glm::length(glm::cross(clean.vertices[ring[i - 1].vertex] - first, arm));
+                        longest = std::max(longest, glm::length(arm));
+                    }
+                    if (!(area > kLeastWidth * longest)) {
                         is_good = false;
                         break;
                     }
