@@ -87,6 +87,17 @@ TEST_F(WebServerTest, AnswersRangesAndHeads) {
     ASSERT_TRUE(part);
     EXPECT_EQ(part->status, 206);
     EXPECT_EQ(part->body, "2345");
+    EXPECT_EQ(client_->Get("/city.glb", {{"Range", "bytes=-3"}})->body, "789");
+    EXPECT_EQ(client_->Get("/city.glb", {{"Range", "bytes=7-"}})->body, "789");
+    // What lies outside the file, or makes no sense, gives no byte beyond it and does not stop the server.
+    for (const char* range :
+         {"bytes=100-200", "bytes=5-2", "bytes=9-99", "bytes=-99", "bytes=99999999999999999999-", "bytes=x"}) {
+        const auto answer = client_->Get("/city.glb", {{"Range", range}});
+        if (answer) {
+            EXPECT_LE(answer->body.size(), 600u) << range;
+        }
+        EXPECT_EQ(client_->Get("/city.glb")->body, "0123456789") << range;
+    }
     const auto head = client_->Head("/city.glb");
     EXPECT_EQ(head->status, 200);
     EXPECT_EQ(head->get_header_value("Content-Length"), "10");

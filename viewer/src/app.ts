@@ -14,6 +14,7 @@ import { Panel } from './ui/panel';
 /** A view whose eye stands this low over the ground is meant to be walked from, metres. */
 const highestWalker = 4;
 const linkIntervalMs = 300;
+const noticeMs = 5000;
 
 type NamedView = { name: string; position: Vec3; target: Vec3 } | 'birds-eye' | 'on-foot';
 
@@ -26,13 +27,15 @@ export class App {
   private readonly canvas: HTMLCanvasElement;
   private readonly progress = new ProgressNotice();
   private readonly said = element('p', { class: 'said', role: 'status' });
+  private readonly notice = element('p', { class: 'progress', role: 'alert', hidden: '' });
+  private noticeTimer: number | null = null;
   private readonly help = element('p', { class: 'help' });
   private linkTimer: number | null = null;
 
   /** Throws LoadError when the browser has no WebGL 2. */
   constructor(readonly manifestUrl: string, antialias: boolean) {
     this.canvas = element('canvas', { tabindex: '0', role: 'application', 'aria-label': text.canvasLabel });
-    document.body.append(this.canvas, this.progress.root, this.said, this.help);
+    document.body.append(this.canvas, this.progress.root, this.notice, this.said, this.help);
     try {
       this.viewer = new Viewer(this.canvas, {
         antialias,
@@ -51,7 +54,8 @@ export class App {
     this.bake = bake;
     const { manifest } = bake;
     if (manifest.instants.length === 0) throw new LoadError(this.manifestUrl, text.error.noInstants);
-    document.title = text.pageTitle(manifest.title);
+    const title = manifest.title || text.untitled;
+    document.title = text.pageTitle(title);
 
     this.progress.begin(text.loading(text.loadingParts.city), bake.bytesOf('city.glb'));
     await this.viewer.open(bake, this.progress.advance);
@@ -59,7 +63,7 @@ export class App {
     this.views = [...manifest.views, 'birds-eye', 'on-foot'];
     this.panel = new Panel(
       {
-        title: manifest.title,
+        title,
         instants: manifest.instants.map((instant) => instant.label),
         views: this.views.map((view) => (view === 'birds-eye' ? text.birdsEye : view === 'on-foot' ? text.onFoot : view.name)),
         texelM: manifest.texel_m,
@@ -109,7 +113,7 @@ export class App {
   setMode(mode: Mode): void {
     if (mode === this.viewer.mode) return;
     if (mode === 'orbit') this.viewer.leaveWalk();
-    else if (!this.viewer.walkFrom(null)) this.said.textContent = text.noGround;
+    else if (!this.viewer.walkFrom(null)) this.tell(text.noGround);
     this.panel?.showView(null);
     this.refresh();
     this.canvas.focus({ preventScroll: true });
@@ -131,7 +135,7 @@ export class App {
       this.viewer.lookAt(position, target);
     } else if (view === 'on-foot') {
       this.viewer.leaveWalk();
-      if (!this.viewer.walkFrom(null)) this.said.textContent = text.noGround;
+      if (!this.viewer.walkFrom(null)) this.tell(text.noGround);
     } else {
       this.look(view.position, view.target);
     }
@@ -141,6 +145,14 @@ export class App {
 
   stats(): ViewerStats {
     return this.viewer.stats();
+  }
+
+  /** A remark that goes by itself. */
+  private tell(words: string): void {
+    this.notice.textContent = words;
+    this.notice.hidden = false;
+    if (this.noticeTimer !== null) clearTimeout(this.noticeTimer);
+    this.noticeTimer = window.setTimeout(() => (this.notice.hidden = true), noticeMs);
   }
 
   private restore(state: Partial<ViewState>): void {

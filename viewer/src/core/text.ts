@@ -2,6 +2,7 @@
 
 export const text = {
   pageTitle: (title: string) => `${title} – skybake`,
+  untitled: 'City',
   panelLabel: 'Settings of the walkthrough',
   canvasLabel: 'The city in its baked daylight. Drag to look, arrow keys to move; the line below lists all keys.',
   instant: 'Time',

@@ -3,7 +3,7 @@
 import fs from 'node:fs';
 import path from 'node:path';
 import type { Manifest } from '../../src/core/generated/manifest';
-import { srgbEncode } from '../../src/core/units';
+import { luminance, srgbEncode } from '../../src/core/units';
 import { encodePng } from './png';
 
 type V3 = [number, number, number];
@@ -79,8 +79,9 @@ function hitsBox(from: V3, direction: V3, box: Box): boolean {
     const b = (box.max[axis] - from[axis]) / direction[axis];
     near = Math.max(near, Math.min(a, b));
     far = Math.min(far, Math.max(a, b));
+    if (near >= far) return false;
   }
-  return near < far;
+  return true;
 }
 
 const isFree = (from: V3, direction: V3) => !boxes.some((box) => hitsBox(from, direction, box));
@@ -106,18 +107,26 @@ function skyRadiance(instant: (typeof instants)[number], sine: number): V3 {
   return [0, 1, 2].map((c) => instant.horizon[c as 0]! * (1 - t) + instant.zenith[c as 0]! * t) as V3;
 }
 
-function lightAt(face: Face, point: V3, instant: (typeof instants)[number]): { sky: V3; sunCosine: number } {
-  if (face.light) return face.light;
+/** Light of all instants at a point: what a direction sees is asked once. */
+function lightsAt(face: Face, point: V3): { sky: V3; sunCosine: number }[] {
+  if (face.light) return instants.map(() => face.light!);
   const from = add(point, face.normal, 0.01);
-  let sky: V3 = [0, 0, 0];
-  for (const { direction, solidAngle, rise } of dome) {
+  const skies = instants.map((): V3 => [0, 0, 0]);
+  for (const [k, { direction, solidAngle }] of dome.entries()) {
     const cosine = dot(face.normal, direction);
-    if (cosine > 0 && isFree(from, direction)) sky = add(sky, skyRadiance(instant, rise), cosine * solidAngle);
+    if (cosine <= 0 || !isFree(from, direction)) continue;
+    skies.forEach((sky, i) => {
+      for (let c = 0 as 0 | 1 | 2; c < 3; ++c) sky[c] += domeRadiance[i]![k]![c] * cosine * solidAngle;
+    });
   }
-  const sun = sunDirection(instant.azimuth, instant.elevation);
-  const cosine = Math.max(0, dot(face.normal, sun));
-  return { sky, sunCosine: cosine > 0 && isFree(from, sun) ? cosine : 0 };
+  return instants.map((instant, i) => {
+    const sun = sunDirection(instant.azimuth, instant.elevation);
+    const cosine = Math.max(0, dot(face.normal, sun));
+    return { sky: skies[i]!, sunCosine: cosine > 0 && isFree(from, sun) ? cosine : 0 };
+  });
 }
+
+const domeRadiance = instants.map((instant) => dome.map(({ rise }) => skyRadiance(instant, rise)));
 
 interface Chart { face: Face; page: number; x: number; y: number; columns: number; rows: number }
 
@@ -189,6 +198,17 @@ export function writeFixture(folder: string): Manifest {
   };
   write('city.glb', makeGlb(charts, pages));
 
+  const lights = charts.map((chart) => {
+    const texels: { sky: V3; sunCosine: number }[][] = [];
+    for (let row = 0; row < chart.rows; ++row) {
+      for (let column = 0; column < chart.columns; ++column) {
+        const along = add(chart.face.corner, chart.face.u, (column + 0.5) / chart.columns);
+        texels.push(lightsAt(chart.face, add(along, chart.face.v, (row + 0.5) / chart.rows)));
+      }
+    }
+    return texels;
+  });
+
   const manifestInstants = instants.map((instant, i): Instant => {
     const scales = new Float32Array(charts.length * 2);
     const sky = pages.map(({ width, height }) => new Uint8Array(width * height * 3));
@@ -196,24 +216,22 @@ export function writeFixture(folder: string): Manifest {
     let luminanceSum = 0;
     let texels = 0;
     charts.forEach((chart, c) => {
-      const samples: { at: number; sky: V3; sunCosine: number }[] = [];
+      const own = lights[c]!.map((texel) => texel[i]!);
+      const skyScale = own.reduce((most, texel) => Math.max(most, ...texel.sky), 1e-3);
+      const sunScale = own.reduce((most, texel) => Math.max(most, texel.sunCosine), 1e-3);
+      scales.set([skyScale, sunScale], 2 * c);
       for (let row = -gutter; row < chart.rows + gutter; ++row) {
         for (let column = -gutter; column < chart.columns + gutter; ++column) {
           // The gutter repeats the nearest texel of the chart.
-          const s = (Math.min(chart.columns - 1, Math.max(0, column)) + 0.5) / chart.columns;
-          const t = (Math.min(chart.rows - 1, Math.max(0, row)) + 0.5) / chart.rows;
-          const point = add(add(chart.face.corner, chart.face.u, s), chart.face.v, t);
-          samples.push({ at: (chart.y + row) * pages[chart.page]!.width + chart.x + column, ...lightAt(chart.face, point, instant) });
+          const nearestRow = Math.min(chart.rows - 1, Math.max(0, row));
+          const texel = own[nearestRow * chart.columns + Math.min(chart.columns - 1, Math.max(0, column))]!;
+          const at = (chart.y + row) * pages[chart.page]!.width + chart.x + column;
+          sky[chart.page]!.set(texel.sky.map((e) => Math.round(255 * srgbEncode(e / skyScale))), 3 * at);
+          sun[chart.page]![at] = Math.round((255 * texel.sunCosine) / sunScale);
         }
       }
-      const skyScale = samples.reduce((most, sample) => Math.max(most, ...sample.sky), 1e-3);
-      const sunScale = samples.reduce((most, sample) => Math.max(most, sample.sunCosine), 1e-3);
-      scales.set([skyScale, sunScale], 2 * c);
-      for (const sample of samples) {
-        sky[chart.page]!.set(sample.sky.map((e) => Math.round(255 * srgbEncode(e / skyScale))), 3 * sample.at);
-        sun[chart.page]![sample.at] = Math.round((255 * sample.sunCosine) / sunScale);
-        const total = add(sample.sky, instant.beam, sample.sunCosine);
-        luminanceSum += (0.2126 * total[0] + 0.7152 * total[1] + 0.0722 * total[2]) / Math.PI;
+      for (const texel of own) {
+        luminanceSum += luminance(add(texel.sky, instant.beam, texel.sunCosine)) / Math.PI;
         ++texels;
       }
     });
