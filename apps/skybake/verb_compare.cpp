@@ -1,5 +1,7 @@
 // skybake compare: two bakes of one atlas, texel by texel.
 #include <fmt/format.h>
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/info.h>
 
 #include <filesystem>
 #include <memory>
@@ -105,6 +107,9 @@ int run_compare(const CommonOptions& common, const CompareSettings& settings) {
     options.worst_count = settings.worst_count;
     options.picture_range_lx = settings.range_lx;
     if (!settings.pictures.empty()) options.picture_folder = settings.pictures;
+    const oneapi::tbb::global_control limit(
+        oneapi::tbb::global_control::max_allowed_parallelism,
+        static_cast<std::size_t>(common.threads > 0 ? common.threads : oneapi::tbb::info::default_concurrency()));
     ConsoleProgress progress(common);
     const io::BakeComparison comparison = io::compare_bakes(a, b, options, progress);
     for (const io::InstantComparison& instant : comparison.instants) {
