@@ -36,7 +36,8 @@ std::vector<Vec2d> edge_points(const Layout& layout, const Cell& cell, std::size
     const int label = cell.land.labels[i];
     const bool is_beside_hill = label >= 0 && static_cast<std::size_t>(label) < layout.cells.size() &&
                                 layout.cells[static_cast<std::size_t>(label)].use == CellUse::hill;
-    if (cell.use != CellUse::hill && !is_beside_hill) return {a, b};
+    // The river's banks have their corners only at the ends of its segments.
+    if (label == kRiverbank || (cell.use != CellUse::hill && !is_beside_hill)) return {a, b};
     const bool is_turned = a.x != b.x ? a.x > b.x : a.y > b.y;
     const Vec2d from = is_turned ? b : a;
     const Vec2d to = is_turned ? a : b;
