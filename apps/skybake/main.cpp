@@ -48,7 +48,11 @@ std::string nearest_known(const CLI::App& app, const std::string& typed) {
     return nearest == known.end() ? "" : *nearest;
 }
 
-int run(int argc, char** argv) {
+}  // namespace
+
+namespace skybake::cli {
+
+int run_arguments(std::vector<std::string> arguments) {
     CLI::App app("skybake lights whole cities with real daylight.", "skybake");
     app.set_version_flag("--version", std::string("skybake ") + SKYBAKE_VERSION);
     app.require_subcommand(1);
@@ -65,7 +69,8 @@ int run(int argc, char** argv) {
     add_sky(app, program);
 
     try {
-        app.parse(argc, argv);
+        std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
+        app.parse(std::move(arguments));
     } catch (const CLI::ExtrasError&) {
         const std::vector<std::string> extras = app.remaining(true);
         const std::string typed = extras.empty() ? "" : extras.front().substr(0, extras.front().find('='));
@@ -81,12 +86,12 @@ int run(int argc, char** argv) {
     return program.run();
 }
 
-}  // namespace
+}  // namespace skybake::cli
 
 int main(int argc, char** argv) {
     std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is no error: `skybake … | head`
     try {
-        return run(argc, argv);
+        return skybake::cli::run_arguments({argv + 1, argv + argc});
     } catch (const skybake::InputError& error) {
         fmt::print(stderr, "skybake: {}\n", error.what());
         return kWrongUse;

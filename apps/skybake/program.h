@@ -6,6 +6,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "base/finding.h"
 #include "base/progress.h"
@@ -55,6 +56,9 @@ class ConsoleProgress final : public Progress {
     struct State;
     State* state_;
 };
+
+/// Parses and runs the words of a command line (without the program's name) and returns the exit code; errors of the input are thrown.
+int run_arguments(std::vector<std::string> arguments);
 
 // One file a verb.
 void add_town(CLI::App& app, Program& program);

@@ -1,4 +1,127 @@
+// skybake bake: sun and sky of a city into lightmaps, ready for the walkthrough.
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "api/bake_city.h"
+#include "base/error.h"
+#include "base/threads.h"
+#include "bake_report.h"
+#include "city_options.h"
+#include "light_options.h"
 #include "program.h"
+#include "viewer_assets.h"
+
 namespace skybake::cli {
-void add_bake(CLI::App&, Program&) {}
+
+namespace {
+
+struct Options {
+    CityOptions city;
+    LightOptions light;
+    std::filesystem::path output;
+    float texel_m = 0.5f;
+    std::string sampling = "hierarchical";
+    float tolerance = 0.01f;
+};
+
+/// What decides the bytes of a bake, by the names of the options.
+std::vector<std::pair<std::string, std::string>> settings_of(const Options& options) {
+    return {{"at", options.light.at},
+            {"timezone", options.light.timezone},
+            {"site", options.light.site},
+            {"sun-direction", options.light.sun_direction},
+            {"sky", options.light.sky},
+            {"sun", options.light.sun},
+            {"sky-samples", std::to_string(options.light.sky_samples)},
+            {"indirect", options.light.indirect},
+            {"albedo", options.light.albedo},
+            {"lod", options.city.lod},
+            {"texel", fmt::format("{}", options.texel_m)},
+            {"sampling", options.sampling},
+            {"tolerance", fmt::format("{}", options.tolerance)}};
 }
+
+int run(const CommonOptions& common, const Options& options) {
+    check_light_options(options.light);
+    viewer_assets();  // a bake without its walkthrough is not whole: say so before the work
+    const ThreadLimit threads(common.threads);
+    BakeCityOptions bake;
+    bake.files = options.city.files;
+    bake.load = options.city.load_options();
+    bake.daylight = daylight_settings_of(options.light);
+    bake.site = site_of(options.light, std::nullopt);
+    bake.albedo = parse_albedo(options.light.albedo);
+    bake.texel_m = options.texel_m;
+    bake.bake.sky_samples = options.light.sky_samples;
+    bake.bake.tolerance = options.sampling == "full" ? std::nullopt : std::optional(options.tolerance);
+    bake.seed = common.seed;
+    bake.version = SKYBAKE_VERSION;
+    bake.settings = settings_of(options);
+    bake.output = options.output;
+    BakeCityResult result;
+    {
+        ConsoleProgress progress(common);
+        result = bake_city(bake, progress);
+    }
+    copy_viewer(options.output);
+    const int exit_code = report_findings(common, result.findings);
+    const BakeReport& report = result.report;
+    const StageSeconds& s = report.seconds;
+    say(common, fmt::format("{}: {} buildings, {} triangles, {} charts on {} pages, {:.2f} million texels of {} m", options.output.string(),
+                            report.buildings, report.triangles, report.charts, report.pages, static_cast<double>(report.texels) * 1e-6, report.texel_m));
+    say(common, fmt::format("sky: {:.0f} million rays at {:.1f} million a second; {:.1f} % of full sampling, predicted error against it {:.2f} %",
+                            static_cast<double>(report.rays.sky) * 1e-6, report.rays_per_second * 1e-6, 100.0 * report.evaluated_fraction,
+                            100.0 * report.predicted_rmse_over_mean));
+    say(common, fmt::format("{:.1f} s: read {:.1f}, build {:.1f}, charts {:.1f}, sky {:.1f}, sun {:.1f}, finish {:.1f}, write {:.1f}; {:.0f} MB of memory",
+                            s.total, s.read, s.build, s.charts, s.sky, s.sun, s.finish, s.write, static_cast<double>(report.peak_rss_bytes) * 1e-6));
+    say(common, fmt::format("Look at it: skybake view {}", options.output.string()));
+    if (common.wants_json) {
+        nlohmann::json object = to_json(report);
+        object["findings"] = to_json(result.findings);
+        object["output"] = options.output.string();
+        print_json(object);
+    }
+    return exit_code;
+}
+
+}  // namespace
+
+nlohmann::json to_json(const BakeReport& report) {
+    const StageSeconds& s = report.seconds;
+    return {{"buildings", report.buildings},
+            {"triangles", report.triangles},
+            {"charts", report.charts},
+            {"pages", report.pages},
+            {"texels", report.texels},
+            {"texel_m", report.texel_m},
+            {"rays", {{"sun", report.rays.sun}, {"sky", report.rays.sky}, {"photon", report.rays.photon}, {"feeler", report.rays.feeler}}},
+            {"seconds",
+             {{"read", s.read}, {"build", s.build}, {"charts", s.charts}, {"sun", s.sun}, {"sky", s.sky}, {"photons", s.photons},
+              {"gather", s.gather}, {"finish", s.finish}, {"write", s.write}, {"total", s.total}}},
+            {"rays_per_second", report.rays_per_second},
+            {"evaluated_fraction", report.evaluated_fraction},
+            {"predicted_rmse_over_mean", report.predicted_rmse_over_mean},
+            {"peak_rss_bytes", report.peak_rss_bytes}};
+}
+
+void add_bake(CLI::App& app, Program& program) {
+    const auto options = std::make_shared<Options>();
+    CLI::App* verb = add_verb(app, program, "bake", "Computes sun and sky for every surface of a city, into lightmaps with a walkthrough.",
+                              "  skybake bake town.city.json -o lit --at 2026-06-21T12:00+02:00\n"
+                              "  skybake bake delft.city.json -o lit --at 2026-03-21T08:00Z/2026-03-21T16:00Z/2h --ground plane\n"
+                              "  skybake bake city.jsonl -o lit --sun-direction 200,35 --texel 0.25 --sampling full",
+                              [&program, options] { return run(program.common, *options); });
+    add_city_options(verb, options->city);
+    add_light_options(verb, options->light);
+    verb->add_option("-o,--output", options->output, "folder to write")->required();
+    verb->add_option("--texel", options->texel_m, "length of a lightmap texel, metres")->capture_default_str()->check(CLI::Range(0.01, 100.0));
+    verb->add_option("--sampling", options->sampling, "hierarchical, or full: every direction from every texel")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"hierarchical", "full"}));
+    verb->add_option("--tolerance", options->tolerance, "error that the hierarchy may add to the skylight, relative")
+        ->capture_default_str()
+        ->check(CLI::Range(0.0, 1.0));
+}
+
+}  // namespace skybake::cli

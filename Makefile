@@ -1,0 +1,48 @@
+# The two commands: `make demo` and `make test`, each from a fresh clone on Debian 12, as root or with sudo.
+# Everything else is a step of theirs, or a longer check.
+
+PRESET ?= release
+BUILD := build/$(PRESET)
+VIEWER_SOURCES := $(shell find viewer -path viewer/node_modules -prune -o -path viewer/dist -prune -o -type f -print 2>/dev/null)
+export SKYBAKE_COMPILER_LAUNCHER ?= $(shell command -v ccache 2>/dev/null)
+
+.PHONY: demo test build viewer packages unit asan tsan bench format tidy clean
+
+demo: build
+	$(BUILD)/bin/skybake demo demo $(DEMO_FLAGS)
+
+test: build
+	tools/test $(BUILD)
+
+build: packages viewer
+	cmake --preset $(PRESET) >/dev/null
+	cmake --build --preset $(PRESET)
+
+packages:
+	tools/install-packages
+
+viewer: viewer/dist/index.html
+viewer/dist/index.html: $(VIEWER_SOURCES) schema/manifest.schema.json | packages
+	cd viewer && npm ci --no-audit --no-fund && npm run build
+
+unit: build
+	ctest --preset $(PRESET) -L unit
+
+asan:
+	$(MAKE) sanitized PRESET=asan
+tsan:
+	$(MAKE) sanitized PRESET=tsan
+.PHONY: sanitized
+sanitized: build
+	ctest --preset $(PRESET) -L 'unit|stat'
+
+bench: build
+	bench/run $(BUILD)
+
+format:
+	git ls-files '*.h' '*.cpp' | xargs clang-format -i
+tidy: build
+	git ls-files 'src/*.cpp' 'apps/*.cpp' | xargs -P 2 -n 1 clang-tidy -p $(BUILD) --quiet
+
+clean:
+	rm -rf build viewer/dist
