@@ -47,7 +47,7 @@ TEST(TownVerb, WrongUseEndsWithTwo) {
     EXPECT_EQ(run("town -o /tmp/never.json --buildings 9").code, 2);
     EXPECT_EQ(run("town -o /tmp/never.json --buildings 100001").code, 2);
     EXPECT_EQ(run("town -o /tmp/never.json --variant castle").code, 2);
-    EXPECT_EQ(run("town -o /nonexistent-folder/never.json").code, 2);
+    EXPECT_EQ(run("town -o /dev/null/never.json").code, 2);
 }
 
 }  // namespace
