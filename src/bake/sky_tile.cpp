@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "base/check.h"
+#include "base/low_discrepancy.h"
 #include "bake/visibility_grid.h"
 
 // Each copy does the same operations in the same order, without fused multiply-add: the same bits on every processor.
@@ -22,11 +23,12 @@ namespace skybake {
 namespace {
 
 constexpr int kPacket = RayScene::kPacketSize;
-// Directions traced in full before a lattice is chosen. 32 of 1024 are 3 % of the rays; with 16 the anchored errors below were missed
-// twice as often on the old town (docs/validation.md).
-constexpr std::size_t kPilots = 32;
-// A texel is traced always when the pilots' errors there do not average out: net two of them wrong to the same side.
-constexpr float kAnchoredError = 1.75f;
+// Directions traced in full before a lattice is chosen: 1.6 % of the rays of 1024 directions.
+constexpr std::size_t kPilots = 16;
+// A texel is traced always when the pilots' errors there do not average out: at least two, and net this far to one side of what as many
+// independent errors would add up to (standard deviations: √n for n errors of ±1).
+constexpr float kAnchoredErrors = 2.0f;
+constexpr float kAnchoredDeviations = 1.4f;
 // Tiles with fewer texels are traced in full: a lattice would save nothing.
 constexpr int kSmallTile = 64;
 // In dark tiles the tolerance is relative to this share of the unobstructed light, lest rays are spent on errors nobody sees.
@@ -61,8 +63,9 @@ class RaySource final : public VisibilitySource {
   public:
     RaySource(const TilePoints& points, DirectionPacket& packet) : points_(points), packet_(packet) {}
 
-    void look(std::span<const std::uint64_t> wanted, std::span<std::uint64_t> visible) override {
+    std::size_t look(std::span<const std::uint64_t> wanted, std::span<std::uint64_t> visible) override {
         int count = 0;
+        const std::size_t traced_before = traced_;
         for (std::size_t row = 0; row < wanted.size(); ++row) {
             visible[row] &= ~wanted[row];
             for (std::uint64_t left = wanted[row]; left; left &= left - 1) {
@@ -80,10 +83,12 @@ class RaySource final : public VisibilitySource {
             }
         }
         if (count > 0) trace(count, visible);
+        return traced_ - traced_before;
     }
 
   private:
     void trace(int count, std::span<std::uint64_t> visible) {
+        traced_ += static_cast<std::size_t>(count);
         std::uint32_t free = ~packet_.occluded(x_.data(), y_.data(), z_.data(), count) & ((1u << count) - 1u);
         for (; free; free &= free - 1) {
             const int i = std::countr_zero(free);
@@ -93,6 +98,7 @@ class RaySource final : public VisibilitySource {
 
     const TilePoints& points_;
     DirectionPacket& packet_;
+    std::size_t traced_ = 0;
     alignas(64) std::array<float, kPacket> x_, y_, z_;
     std::array<std::uint8_t, kPacket> row_, column_;
 };
@@ -102,8 +108,13 @@ class PilotSource final : public VisibilitySource {
   public:
     explicit PilotSource(std::span<const std::uint64_t> truth) : truth_(truth) {}
 
-    void look(std::span<const std::uint64_t> wanted, std::span<std::uint64_t> visible) override {
-        for (std::size_t row = 0; row < wanted.size(); ++row) visible[row] = (visible[row] & ~wanted[row]) | (truth_[row] & wanted[row]);
+    std::size_t look(std::span<const std::uint64_t> wanted, std::span<std::uint64_t> visible) override {
+        std::size_t count = 0;
+        for (std::size_t row = 0; row < wanted.size(); ++row) {
+            visible[row] = (visible[row] & ~wanted[row]) | (truth_[row] & wanted[row]);
+            count += static_cast<std::size_t>(std::popcount(wanted[row]));
+        }
+        return count;
     }
 
   private:
@@ -159,27 +170,41 @@ class Accumulator {
         : points_(points), dome_(dome), count_(static_cast<std::size_t>(points.width) * static_cast<std::size_t>(points.height)),
           visibility_(count_), view_factor_(count_, 0.0f), lit_(points.covered.size(), 0) {
         sums_.assign(3 * dome.weights.size(), std::vector<float>(count_, 0.0f));
+        open_.assign(3 * dome.weights.size() + 1, Vec3d(0.0));
+        if (points.normal.empty()) return;
         for (const Vec3f& n : points.normal) {
             nx_.push_back(n.x);
             ny_.push_back(n.y);
             nz_.push_back(n.z);
+            axis_ += n;
         }
+        axis_ = glm::normalize(axis_);
+        float min_cosine = 1.0f;
+        for (const Vec3f& n : points.normal) min_cosine = std::min(min_cosine, glm::dot(n, axis_));
+        horizon_sine_ = std::sqrt(std::max(0.0f, 1.0f - min_cosine * min_cosine));
     }
 
-    void add(std::size_t direction, std::span<const std::uint64_t> visible, std::span<const VisibilityGrid::Fraction> fractions) {
-        bool is_dark = fractions.empty();
+    void add(std::size_t direction, std::span<const std::uint64_t> visible) {
+        std::uint64_t any_visible = 0, any_hidden = 0;
         for (int row = 0; row < points_.height; ++row) {
             lit_[row] |= visible[row];
-            is_dark = is_dark && visible[row] == 0;
+            any_visible |= visible[row];
+            any_hidden |= visible[row] ^ points_.covered[row];
         }
-        if (is_dark) return;
+        if (!any_visible) return;
+        const Vec3f& d = dome_.directions[direction];
+        const bool is_relief = !nx_.empty();
+        if (!any_hidden && (!is_relief || glm::dot(d, axis_) > horizon_sine_)) {
+            // All texels see it, and none from behind: what it adds is one vector for all, and each texel's cosine comes at the end.
+            const Vec3d v = is_relief ? Vec3d(d) : Vec3d(1.0, 0.0, 0.0);
+            open_.back() += static_cast<double>(dome_.view_factor_weight[direction]) * v;
+            for (std::size_t k = 0; k < dome_.weights.size(); ++k) {
+                for (int c = 0; c < 3; ++c) open_[3 * k + static_cast<std::size_t>(c)] += static_cast<double>(dome_.weights[k][direction][c]) * v;
+            }
+            return;
+        }
         for (int row = 0; row < points_.height; ++row) expand_row(&visibility_[static_cast<std::size_t>(points_.texel(0, row))], visible[row], points_.width);
-        for (const VisibilityGrid::Fraction& fraction : fractions) {
-            visibility_[fraction.texel] = fraction.value;
-            if (fraction.value > 0.0f) lit_[fraction.texel / points_.width] |= 1ull << (fraction.texel % points_.width);
-        }
-        if (!nx_.empty()) {
-            const Vec3f& d = dome_.directions[direction];
+        if (is_relief) {
             apply_cosine(visibility_.data(), nx_.data(), ny_.data(), nz_.data(), d.x, d.y, d.z, count_);
         }
         add_scaled(view_factor_.data(), visibility_.data(), dome_.view_factor_weight[direction], count_);
@@ -195,9 +220,19 @@ class Accumulator {
         TileLight light;
         light.sky.assign(dome_.weights.size(), std::vector<Rgb>(count_));
         for (std::size_t k = 0; k < dome_.weights.size(); ++k) {
-            for (std::size_t i = 0; i < count_; ++i) light.sky[k][i] = Rgb(sums_[3 * k][i], sums_[3 * k + 1][i], sums_[3 * k + 2][i]);
+            for (std::size_t i = 0; i < count_; ++i) {
+                const Vec3d n = nx_.empty() ? Vec3d(1.0, 0.0, 0.0) : Vec3d(nx_[i], ny_[i], nz_[i]);
+                for (int c = 0; c < 3; ++c) {
+                    const std::size_t channel = 3 * k + static_cast<std::size_t>(c);
+                    light.sky[k][i][c] = static_cast<float>(static_cast<double>(sums_[channel][i]) + glm::dot(n, open_[channel]));
+                }
+            }
         }
         light.sky_view_factor = std::move(view_factor_);
+        for (std::size_t i = 0; i < count_; ++i) {
+            const Vec3d n = nx_.empty() ? Vec3d(1.0, 0.0, 0.0) : Vec3d(nx_[i], ny_[i], nz_[i]);
+            light.sky_view_factor[i] += static_cast<float>(glm::dot(n, open_.back()));
+        }
         light.lit = std::move(lit_);
         return light;
     }
@@ -209,8 +244,15 @@ class Accumulator {
     std::vector<float> visibility_, view_factor_;
     std::vector<std::uint64_t> lit_;
     std::vector<std::vector<float>> sums_;  // [3 instant + channel][texel]
+    std::vector<Vec3d> open_;  // [3 instant + channel], and the view factor's: of directions that every texel sees
+    // Relief: normals, their mean, and the sine of their largest angle to it.
     std::vector<float> nx_, ny_, nz_;
+    Vec3f axis_{0.0f};
+    float horizon_sine_ = 0.0f;
 };
+
+/// Thresholds of successive directions, spread evenly (base 3: the directions' own numbers go by base 2).
+float threshold_of(std::size_t direction) { return static_cast<float>(radical_inverse(3, static_cast<std::uint32_t>(direction))); }
 
 /// What a lattice would have made of the pilot directions.
 struct Trial {
@@ -223,40 +265,38 @@ Trial try_lattice(const TilePoints& points, VisibilityGrid& grid, const Lattice&
                   std::size_t texel_count, std::size_t direction_count) {
     Trial trial;
     trial.anchored.assign(points.covered.size(), 0);
-    std::vector<float> net(static_cast<std::size_t>(points.width) * static_cast<std::size_t>(points.height), 0.0f);
-    std::vector<std::uint64_t> visible(points.covered.size());
-    double independent = 0.0;  // Σ e² over pilots and texels
-    for (const std::vector<std::uint64_t>& truth : pilots) {
+    const std::size_t count = static_cast<std::size_t>(points.width) * static_cast<std::size_t>(points.height);
+    std::vector<float> net(count, 0.0f), errors(count, 0.0f);
+    std::vector<std::uint64_t> visible(points.covered.size()), touched(points.covered.size(), 0);
+    double square_sum = 0.0;  // Σ e² over pilots and texels, e in {−1, 0, 1}
+    for (std::size_t p = 0; p < pilots.size(); ++p) {
+        const std::vector<std::uint64_t>& truth = pilots[p];
         PilotSource source(truth);
-        trial.rays += static_cast<double>(grid.solve(lattice, source, visible));
-        for (const VisibilityGrid::Fraction& f : grid.fractions()) {
-            const int row = f.texel / points.width;
-            const std::uint64_t bit = 1ull << (f.texel % points.width);
-            const float error = f.value - (truth[row] & bit ? 1.0f : 0.0f);
-            net[f.texel] += error;
-            independent += static_cast<double>(error * error);
-            visible[row] = (visible[row] & ~bit) | (truth[row] & bit);  // accounted for
-        }
+        trial.rays += static_cast<double>(grid.solve(lattice, threshold_of(p), source, visible));
         for (int row = 0; row < points.height; ++row) {
             for (std::uint64_t wrong = (visible[row] ^ truth[row]) & points.covered[row]; wrong; wrong &= wrong - 1) {
                 const int column = std::countr_zero(wrong);
-                net[static_cast<std::size_t>(points.texel(column, row))] += visible[row] >> column & 1 ? 1.0f : -1.0f;
-                independent += 1.0;
+                const std::size_t texel = static_cast<std::size_t>(points.texel(column, row));
+                const float error = visible[row] >> column & 1 ? 1.0f : -1.0f;
+                net[texel] += error;
+                errors[texel] += 1.0f;
+                square_sum += 1.0;
+                touched[row] |= 1ull << column;
             }
         }
     }
-    double correlated = 0.0;  // Σ (Σ e)² − Σ e²: pairs of pilots that err alike at one texel
     for (int row = 0; row < points.height; ++row) {
-        for (int column = 0; column < points.width; ++column) {
-            const float error = net[static_cast<std::size_t>(points.texel(column, row))];
-            correlated += static_cast<double>(error * error);
-            if (std::abs(error) >= kAnchoredError) trial.anchored[row] |= 1ull << column;
+        for (std::uint64_t left = touched[row]; left; left &= left - 1) {
+            const int column = std::countr_zero(left);
+            const std::size_t texel = static_cast<std::size_t>(points.texel(column, row));
+            if (errors[texel] >= kAnchoredErrors && std::abs(net[texel]) >= kAnchoredDeviations * std::sqrt(errors[texel])) {
+                trial.anchored[row] |= 1ull << column;
+            }
         }
     }
-    correlated -= independent;
-    const double n = static_cast<double>(pilots.size()), all = static_cast<double>(direction_count), texels = static_cast<double>(texel_count);
-    // E[(Σ_j e_j / N)²] over N directions: the squares of each, and the pairs, whose mean product the pilots estimate.
-    trial.squared_error = (independent / n / all + std::max(0.0, correlated) / (n * (n - 1.0)) * (all - 1.0) / all) / texels;
+    // What is left averages out: E[(Σ_j e_j / N)²] over N directions is the mean square over N.
+    const double n = static_cast<double>(pilots.size());
+    trial.squared_error = square_sum / n / static_cast<double>(direction_count) / static_cast<double>(texel_count);
     trial.rays /= n;
     return trial;
 }
@@ -318,7 +358,7 @@ TileLight light_tile(const TilePoints& points, const DomeSamples& dome, Directio
         packet.set_direction(dome.directions[j]);
         full.trace(visible);
         statistics.rays += full.size();
-        sum.add(j, visible, {});
+        sum.add(j, visible);
     };
 
     if (!options.tolerance || full.size() <= static_cast<std::size_t>(kSmallTile) || count < 4 * kPilots) {
@@ -373,8 +413,8 @@ TileLight light_tile(const TilePoints& points, const DomeSamples& dome, Directio
             continue;
         }
         packet.set_direction(dome.directions[j]);
-        statistics.rays += grid.solve(*chosen, rays, visible);
-        sum.add(j, visible, grid.fractions());
+        statistics.rays += grid.solve(*chosen, threshold_of(j), rays, visible);
+        sum.add(j, visible);
     }
     statistics.squared_error_sum += fixed_point(squared_error * static_cast<double>(full.size()));
     statistics.view_factor_sum += fixed_point(mean_visibility * static_cast<double>(full.size()));

@@ -14,6 +14,37 @@ constexpr std::array<int, 5> kCells{16, 8, 4, 2, 1};
 /// The bits of columns [begin, end], end ≤ 63.
 constexpr std::uint64_t columns(int begin, int end) { return (~0ull >> (63 - (end - begin))) << begin; }
 
+/// [corner bits (x, y): 00, 10, 01, 11][row]: which texels of a cell lie above the threshold.
+using EdgeMasks = std::array<std::array<std::uint8_t, 5>, 16>;
+constexpr int kThresholds = 16;
+
+EdgeMasks make_edge_masks(int cell, float threshold) {
+    EdgeMasks masks{};
+    for (std::size_t corners = 0; corners < 16; ++corners) {
+        const auto corner = [&](int k) { return static_cast<float>(corners >> k & 1); };
+        for (int y = 0; y <= cell; ++y) {
+            for (int x = 0; x <= cell; ++x) {
+                const float s = static_cast<float>(x) / static_cast<float>(cell), t = static_cast<float>(y) / static_cast<float>(cell);
+                const float value = (1 - t) * ((1 - s) * corner(0) + s * corner(1)) + t * ((1 - s) * corner(2) + s * corner(3));
+                if (value > threshold) masks[corners][static_cast<std::size_t>(y)] |= static_cast<std::uint8_t>(1u << x);
+            }
+        }
+    }
+    return masks;
+}
+
+/// The masks of cells of 2 or 4 texels for the nearest of kThresholds thresholds.
+const EdgeMasks& edge_masks(int cell, float threshold) {
+    static const auto tables = [] {
+        std::array<std::array<EdgeMasks, kThresholds>, 2> all;
+        for (int size = 0; size < 2; ++size) {
+            for (int k = 0; k < kThresholds; ++k) all[size][k] = make_edge_masks(2 << size, (static_cast<float>(k) + 0.5f) / kThresholds);
+        }
+        return all;
+    }();
+    return tables[cell == 2 ? 0 : 1][static_cast<std::size_t>(std::clamp(static_cast<int>(threshold * kThresholds), 0, kThresholds - 1))];
+}
+
 }  // namespace
 
 VisibilityGrid::VisibilityGrid(const TilePoints& points) : points_(points) {
@@ -50,13 +81,8 @@ void VisibilityGrid::force(std::span<const std::uint64_t> texels) {
 }
 
 std::size_t VisibilityGrid::look(VisibilitySource& source, std::span<std::uint64_t> visible) {
-    std::size_t count = 0;
-    for (int row = 0; row < points_.height; ++row) {
-        count += static_cast<std::size_t>(std::popcount(wanted_[row]));
-        known_[row] |= wanted_[row];
-    }
-    if (count > 0) source.look(std::span(wanted_).first(static_cast<std::size_t>(points_.height)), visible);
-    return count;
+    for (int row = 0; row < points_.height; ++row) known_[row] |= wanted_[row];
+    return source.look(std::span(wanted_).first(static_cast<std::size_t>(points_.height)), visible);
 }
 
 void VisibilityGrid::find_mixed(int cell, std::span<const std::uint64_t> visible, Rows& mixed) const {
@@ -67,22 +93,17 @@ void VisibilityGrid::find_mixed(int cell, std::span<const std::uint64_t> visible
     }
 }
 
-void VisibilityGrid::interpolate(int cell, const Rows& mixed, std::span<const std::uint64_t> visible) {
-    const float step = 1.0f / static_cast<float>(cell);
-    Rows done = known_;
+void VisibilityGrid::interpolate(int cell, float threshold, const Rows& mixed, std::span<std::uint64_t> visible) const {
+    const EdgeMasks& masks = edge_masks(cell, threshold);
     for (int y0 = 0; y0 + cell < points_.height; y0 += cell) {
         for (std::uint64_t left = mixed[y0]; left; left &= left - 1) {
             const int x0 = std::countr_zero(left);
-            const auto value = [&](int x, int y) { return static_cast<float>(visible[y] >> x & 1); };
-            const float v00 = value(x0, y0), v10 = value(x0 + cell, y0), v01 = value(x0, y0 + cell), v11 = value(x0 + cell, y0 + cell);
-            for (int y = y0; y <= y0 + cell; ++y) {
-                const float t = static_cast<float>(y - y0) * step;
-                for (std::uint64_t open = columns(x0, x0 + cell) & points_.covered[y] & ~done[y]; open; open &= open - 1) {
-                    const int x = std::countr_zero(open);
-                    const float s = static_cast<float>(x - x0) * step;
-                    done[y] |= 1ull << x;  // a common side is interpolated once: both cells would give the same
-                    fractions_.push_back({static_cast<std::uint16_t>(points_.texel(x, y)), (1 - t) * ((1 - s) * v00 + s * v10) + t * ((1 - s) * v01 + s * v11)});
-                }
+            const std::size_t corners = (visible[y0] >> x0 & 1) | (visible[y0] >> (x0 + cell) & 1) << 1 | (visible[y0 + cell] >> x0 & 1) << 2 |
+                                        (visible[y0 + cell] >> (x0 + cell) & 1) << 3;
+            const std::uint64_t cell_columns = columns(x0, x0 + cell);
+            for (int row = 0; row <= cell; ++row) {
+                const std::uint64_t open = cell_columns & ~known_[y0 + row];
+                visible[y0 + row] = (visible[y0 + row] & ~open) | (static_cast<std::uint64_t>(masks[corners][static_cast<std::size_t>(row)]) << x0 & open);
             }
         }
     }
@@ -100,11 +121,10 @@ void VisibilityGrid::fill_next_level(int cell, std::span<std::uint64_t> visible)
     }
 }
 
-std::size_t VisibilityGrid::solve(const Lattice& lattice, VisibilitySource& source, std::span<std::uint64_t> visible) {
+std::size_t VisibilityGrid::solve(const Lattice& lattice, float threshold, VisibilitySource& source, std::span<std::uint64_t> visible) {
     std::fill(visible.begin(), visible.end(), 0);
     known_.fill(0);
     wanted_.fill(0);
-    fractions_.clear();
     const int first = lattice.first_cell;
     for (int y = 0; y + first < points_.height; y += first) {
         const std::uint64_t cells = in_use_[level_of(first)][y];
@@ -137,8 +157,8 @@ std::size_t VisibilityGrid::solve(const Lattice& lattice, VisibilitySource& sour
             looked_at += look(source, visible);
         }
         if (is_last) {
-            if (cell > 1) interpolate(cell, mixed, visible);
             for (int fill = cell; fill > 1; fill /= 2) fill_next_level(fill, visible);
+            if (cell > 1) interpolate(cell, threshold, mixed, visible);
             break;
         }
         fill_next_level(cell, visible);

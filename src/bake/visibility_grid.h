@@ -20,8 +20,9 @@ struct Lattice {
 class VisibilitySource {
   public:
     virtual ~VisibilitySource() = default;
-    /// For each set bit of wanted[row], sets that bit of visible[row] when the texel sees the sky and clears it otherwise.
-    virtual void look(std::span<const std::uint64_t> wanted, std::span<std::uint64_t> visible) = 0;
+    /// For each set bit of wanted[row], sets that bit of visible[row] when the texel sees the sky and clears it otherwise. Returns how many
+    /// bits there were.
+    virtual std::size_t look(std::span<const std::uint64_t> wanted, std::span<std::uint64_t> visible) = 0;
 };
 
 /// The lattice of a tile, made once, and the solution for one direction after another. All texels of a row are one machine word, so that a
@@ -34,16 +35,11 @@ class VisibilityGrid {
     void force(std::span<const std::uint64_t> texels);
 
     /// Finds the visibility of all covered texels, a bit each. A cell is mixed when its corners differ; its unknown corners, the middles of
-    /// its sides and its centre are looked at, which may make its neighbours mixed, until nothing changes; then cells are halved. What lies in cells that
-    /// are not mixed is taken to be as their corners. Texels of mixed last cells get their share in `fractions` instead. Returns how
-    /// many texels were looked at.
-    std::size_t solve(const Lattice& lattice, VisibilitySource& source, std::span<std::uint64_t> visible);
-
-    struct Fraction {
-        std::uint16_t texel;
-        float value;
-    };
-    std::span<const Fraction> fractions() const { return fractions_; }
+    /// its sides and its centre are looked at, which may make its neighbours mixed, until nothing changes; then cells are halved. What lies in
+    /// cells that are not mixed is taken to be as their corners. A texel of a mixed last cell is visible when the corners' visibility,
+    /// interpolated, is above `threshold`: over directions with thresholds spread evenly over [0, 1] it gets the interpolated share.
+    /// Returns how many texels were looked at.
+    std::size_t solve(const Lattice& lattice, float threshold, VisibilitySource& source, std::span<std::uint64_t> visible);
 
   private:
     static constexpr int kLevels = 5;  // cells of 16, 8, 4, 2 and 1 texels
@@ -53,14 +49,13 @@ class VisibilityGrid {
     std::size_t look(VisibilitySource& source, std::span<std::uint64_t> visible);
     void find_mixed(int cell, std::span<const std::uint64_t> visible, Rows& mixed) const;
     void fill_next_level(int cell, std::span<std::uint64_t> visible) const;
-    void interpolate(int cell, const Rows& mixed, std::span<const std::uint64_t> visible);
+    void interpolate(int cell, float threshold, const Rows& mixed, std::span<std::uint64_t> visible) const;
 
     const TilePoints& points_;
     // [level][row]: bit set at a cell's first column and row. Cells without covered texels are never looked into.
     std::array<Rows, kLevels> in_use_{}, forced_{};
     std::array<std::uint64_t, kLevels> cell_columns_{};  // first columns of cells
     Rows known_{}, wanted_{};
-    std::vector<Fraction> fractions_;
 };
 
 }  // namespace skybake
