@@ -10,7 +10,9 @@ namespace {
 
 constexpr float kEyeHeight = 1.7f;
 // A street sees between a third and nine tenths of the sky: less is a passage, more an open field.
-constexpr float kStreetMin = 0.33f, kStreetMax = 0.9f;
+constexpr float kStreetMin = 0.3f, kStreetMax = 0.8f;
+// A road may be this much farther from the centre than other ground and is still preferred, metres.
+constexpr float kRoadBonus = 150.0f;
 constexpr int kGazes = 64;
 
 /// The ground under the city's buildings, which may fill a small part of a large terrain.
@@ -47,7 +49,7 @@ std::vector<io::BakeView> default_views(const Scene& scene, const Atlas& atlas, 
                 const float open = page.sky_view_factor[texel];
                 if (page.state[texel] != TexelState::chart || open < kStreetMin || open > kStreetMax) continue;
                 const Vec3f p = chart.origin + (static_cast<float>(column) + 0.5f) * chart.u + (static_cast<float>(row) + 0.5f) * chart.v;
-                const float distance = glm::length(Vec2f(p - center));
+                const float distance = glm::length(Vec2f(p - center)) - (face.type == SurfaceType::road ? kRoadBonus : 0.0f);
                 if (distance < nearest) {
                     nearest = distance;
                     eye = p;

@@ -35,10 +35,11 @@ struct AtlasPage {
     int height = 0;
 };
 
-/// An edge that two charts of nearly one plane share: the light must agree along it.
+/// An edge that two charts of one object share.
 struct Seam {
     ChartId a, b;
     Vec3f begin{0.0f}, end{0.0f};  // local metres
+    bool is_smooth = false;        // the charts bend by less than 25°: their light must agree along it
 };
 
 struct Atlas {

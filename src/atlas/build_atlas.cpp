@@ -165,9 +165,10 @@ class ChartBuilder {
         for (std::uint32_t t = 0; t < scene_.triangles.size(); ++t) {
             for (std::uint32_t i = adjacency_.first[t]; i < adjacency_.first[t + 1]; ++i) {
                 const std::uint32_t a = chart_of_[t], b = chart_of_[adjacency_.neighbor[i]];
-                if (a == b || glm::dot(charts_[a].normal, charts_[b].normal) < kSeamCosine) continue;
+                if (a == b) continue;
                 const int k = adjacency_.edge[i];
-                atlas.seams.push_back({ChartId(a), ChartId(b), scene_.triangles[t][k], scene_.triangles[t][(k + 1) % 3]});
+                const bool is_smooth = glm::dot(charts_[a].normal, charts_[b].normal) >= kSeamCosine;
+                atlas.seams.push_back({ChartId(a), ChartId(b), scene_.triangles[t][k], scene_.triangles[t][(k + 1) % 3], is_smooth});
             }
         }
         atlas.charts = std::move(charts_);

@@ -107,6 +107,7 @@ class Baker {
         const double wall = std::chrono::duration<double>(Clock::now() - begin).count();
         const auto join_begin = Clock::now();
         join_seams(atlas_, lightmaps_);
+        light_hidden_edges(atlas_, lightmaps_);
         const double join = std::chrono::duration<double>(Clock::now() - join_begin).count();
 
         // The stages run interleaved on all threads: each gets its share of the wall clock.
@@ -148,7 +149,6 @@ class Baker {
         const std::size_t count = samples.position.size();
         light.sky.assign(lightmaps_.instants.size(), std::vector<Rgb>(count, Rgb(0.0f)));
         light.sky_view_factor.assign(count, 0.0f);
-        light.is_lit.assign(count, 0);
         const int columns = (chart.size.x + kTile - 1) / kTile, rows = (chart.size.y + kTile - 1) / kTile;
         tbb::parallel_for(0, columns * rows, [&](int tile) {
             if (progress_.stop_requested()) throw Interrupted();
@@ -224,7 +224,6 @@ class Baker {
                 const std::size_t i = samples.index(column0 + column, row0 + row);
                 const std::size_t t = static_cast<std::size_t>(points.texel(column, row));
                 light.sky_view_factor[i] = tile.sky_view_factor[t];
-                light.is_lit[i] = tile.lit[row] >> column & 1;
                 for (std::size_t k = 0; k < light.sky.size(); ++k) light.sky[k][i] = tile.sky[k][t];
             }
         }
@@ -235,7 +234,10 @@ class Baker {
     /// Looks along the surface from each texel to its four sides.
     void find_features(const Chart& chart, TilePoints& points, DirectionPacket& packet) {
         const float texel = std::max(glm::length(chart.u), glm::length(chart.v));
-        const Vec3f lift = (kFeatureHeight * texel) * chart.normal;
+        // Above the slopes of a relief chart, which are not features.
+        const float c = chart.min_normal_cosine;
+        const float slope = std::sqrt(std::max(0.0f, 1.0f - c * c)) / c;
+        const Vec3f lift = texel * (kFeatureHeight + kFeatureReach * slope) * chart.normal;
         for (const Vec3f& side : {chart.u, -chart.u, chart.v, -chart.v}) {
             packet.set_direction(glm::normalize(side), kFeatureReach * texel);
             alignas(64) std::array<float, RayScene::kPacketSize> x, y, z;

@@ -10,6 +10,8 @@ namespace {
 constexpr int kNearLit = 3;        // texels: what bilinear lookup and one mip level can reach
 constexpr std::size_t kBuriedRays = 8;
 constexpr int kBackFacesNeeded = 5;
+// Light that comes through the cracks between ground and wall of a real city does not make a place to stand.
+constexpr float kDarkViewFactor = 0.03f;
 constexpr int kFillRings = 6;      // gutter, block padding, and what lies under a wall's foot
 
 /// Calls body(index, x, y) for the 3 × 3 neighbourhood inside the grid, the centre left out.
@@ -29,18 +31,24 @@ std::vector<std::uint8_t> find_buried(const Scene& scene, const Chart& chart, co
     const int width = samples.size.x, height = samples.size.y;
     std::vector<std::uint8_t> buried(samples.cover.size(), 0);
     if (dome.size() == 0) return buried;
-    std::vector<std::uint8_t> near = light.is_lit;
+    // Lit texels, and what is not covered: the border.
+    std::vector<std::uint8_t> near(buried.size());
+    for (std::size_t i = 0; i < near.size(); ++i) {
+        near[i] = light.sky_view_factor[i] > kDarkViewFactor || samples.cover[i] == ChartSamples::Cover::none;
+    }
     for (int ring = 0; ring < kNearLit; ++ring) {
         std::vector<std::uint8_t> wider = near;
         for (int row = 0; row < height; ++row) {
             for (int column = 0; column < width; ++column) {
-                for_neighbors(column, row, width, height, [&](std::size_t j) { wider[samples.index(column, row)] |= near[j]; });
+                std::uint8_t& own = wider[samples.index(column, row)];
+                if (row == 0 || column == 0 || row == height - 1 || column == width - 1) own = 1;
+                for_neighbors(column, row, width, height, [&](std::size_t j) { own |= near[j]; });
             }
         }
         near = std::move(wider);
     }
     for (std::size_t i = 0; i < buried.size(); ++i) {
-        if (samples.cover[i] == ChartSamples::Cover::none || light.is_lit[i] || !near[i]) continue;
+        if (samples.cover[i] == ChartSamples::Cover::none || light.sky_view_factor[i] > kDarkViewFactor || !near[i]) continue;
         const Vec3f origin = samples.position[i] + rays.surface_offset() * shading_normal(scene, chart, samples.triangle[i]);
         int back_faces = 0;
         for (std::size_t s = 0; s < kBuriedRays; ++s) {
@@ -128,6 +136,7 @@ void join_seams(const Atlas& atlas, Lightmaps& lightmaps) {
         return static_cast<std::size_t>(row) * static_cast<std::size_t>(page.width) + static_cast<std::size_t>(column);
     };
     for (const Seam& seam : atlas.seams) {
+        if (!seam.is_smooth) continue;
         const Chart& a = atlas.charts[seam.a.index()];
         const Chart& b = atlas.charts[seam.b.index()];
         LightmapPage& page_a = lightmaps.pages[a.page.index()];
@@ -175,6 +184,44 @@ void join_seams(const Atlas& atlas, Lightmaps& lightmaps) {
                     LightmapLayer& to = instant.pages[a.page.index()];
                     to.sky[p] = sky / weight_sum;
                     to.sun_cosine[p] = sun / weight_sum;
+                }
+            }
+        }
+    }
+}
+
+void light_hidden_edges(const Atlas& atlas, Lightmaps& lightmaps) {
+    for (const Seam& seam : atlas.seams) {
+        if (seam.is_smooth) continue;
+        const Chart& a = atlas.charts[seam.a.index()];
+        const Chart& b = atlas.charts[seam.b.index()];
+        LightmapPage& page_a = lightmaps.pages[a.page.index()];
+        const LightmapPage& page_b = lightmaps.pages[b.page.index()];
+        const Vec2f a0 = texel_coordinate(a, seam.begin), a1 = texel_coordinate(a, seam.end);
+        const Vec2f b0 = texel_coordinate(b, seam.begin), b1 = texel_coordinate(b, seam.end);
+        const int steps = std::max(1, static_cast<int>(std::ceil(2.0f * glm::length(a1 - a0))));
+        for (int step = 0; step <= steps; ++step) {
+            const float t = static_cast<float>(step) / static_cast<float>(steps);
+            const Vec2f at_b = b0 + t * (b1 - b0), at_a = a0 + t * (a1 - a0);
+            const int bx = std::clamp(static_cast<int>(std::floor(at_b.x)), 0, b.size.x - 1), by = std::clamp(static_cast<int>(std::floor(at_b.y)), 0, b.size.y - 1);
+            const std::size_t q = static_cast<std::size_t>(b.position.y + by) * static_cast<std::size_t>(page_b.width) + static_cast<std::size_t>(b.position.x + bx);
+            if (page_b.state[q] != TexelState::chart || page_b.sky_view_factor[q] <= kDarkViewFactor) continue;
+            const int ax = static_cast<int>(std::floor(at_a.x)), ay = static_cast<int>(std::floor(at_a.y));
+            for (int y = std::max(ay - 1, -kGutter); y <= std::min(ay + 1, a.size.y + kGutter - 1); ++y) {
+                for (int x = std::max(ax - 1, -kGutter); x <= std::min(ax + 1, a.size.x + kGutter - 1); ++x) {
+                    const std::size_t p = static_cast<std::size_t>(a.position.y + y) * static_cast<std::size_t>(page_a.width) + static_cast<std::size_t>(a.position.x + x);
+                    if (page_a.state[p] == TexelState::chart || page_a.sky_view_factor[p] > kDarkViewFactor) continue;
+                    if (page_a.state[p] == TexelState::empty) {
+                        page_a.state[p] = TexelState::gutter;
+                        page_a.chart[p] = seam.a;
+                    }
+                    page_a.sky_view_factor[p] = page_b.sky_view_factor[q];
+                    for (BakedInstant& instant : lightmaps.instants) {
+                        const LightmapLayer& from = instant.pages[b.page.index()];
+                        LightmapLayer& to = instant.pages[a.page.index()];
+                        to.sky[p] = from.sky[q];
+                        to.sun_cosine[p] = from.sun_cosine[q];
+                    }
                 }
             }
         }

@@ -18,11 +18,11 @@ struct ChartLight {
     std::vector<std::vector<Rgb>> sky;           // [instant][texel]
     std::vector<std::vector<float>> sun_cosine;  // [instant][texel]
     std::vector<float> sky_view_factor;
-    std::vector<std::uint8_t> is_lit;            // sees the sky in at least one direction
 };
 
-/// Which covered texels lie inside or behind another solid: they see no sky, and most of what they see are back faces. Only texels within a few
-/// texels of lit ones are asked, since only those can show. Adds the number of rays to `ray_count`.
+/// Which covered texels lie inside or behind another solid: they see next to no sky, and most of what they see are back
+/// faces. Only texels within a few texels of lit ones or of the chart's border are asked, since only those can show.
+/// Adds the number of rays to `ray_count`.
 std::vector<std::uint8_t> find_buried(const Scene& scene, const Chart& chart, const ChartSamples& samples, const ChartLight& light,
                                       const DomeSamples& dome, const RayScene& rays, std::uint64_t& ray_count);
 
@@ -32,5 +32,9 @@ void write_chart(ChartId id, const Chart& chart, const ChartSamples& samples, st
 
 /// Where charts of nearly one plane meet, each one's gutter takes the other's light, so that both show the same along their edge.
 void join_seams(const Atlas& atlas, Lightmaps& lightmaps);
+
+/// Along the edge of a wall that nobody sees (between two houses, say) the light of the visible wall beside it is put: through the cracks that
+/// rasterisers leave between abutting houses it would show as a dark line.
+void light_hidden_edges(const Atlas& atlas, Lightmaps& lightmaps);
 
 }  // namespace skybake

@@ -25,10 +25,11 @@ namespace {
 constexpr int kPacket = RayScene::kPacketSize;
 // Directions traced in full before a lattice is chosen: 1.6 % of the rays of 1024 directions.
 constexpr std::size_t kPilots = 16;
-// A texel is traced always when the pilots' errors there do not average out: at least two, and net this far to one side of what as many
-// independent errors would add up to (standard deviations: √n for n errors of ±1).
-constexpr float kAnchoredErrors = 2.0f;
-constexpr float kAnchoredDeviations = 1.4f;
+// A texel is traced always when the pilots' errors there do not average out. What was filled from agreeing corners and is wrong is a missed
+// feature: net two of them to one side. What was interpolated is wrong by chance, as often to either side: only a net beyond so many
+// standard deviations (√n for n errors of ±1) is not.
+constexpr float kAnchoredFills = 2.0f;
+constexpr float kAnchoredDeviations = 3.0f;
 // Tiles with fewer texels are traced in full: a lattice would save nothing.
 constexpr int kSmallTile = 64;
 // In dark tiles the tolerance is relative to this share of the unobstructed light, lest rays are spent on errors nobody sees.
@@ -168,7 +169,7 @@ class Accumulator {
   public:
     Accumulator(const TilePoints& points, const DomeSamples& dome)
         : points_(points), dome_(dome), count_(static_cast<std::size_t>(points.width) * static_cast<std::size_t>(points.height)),
-          visibility_(count_), view_factor_(count_, 0.0f), lit_(points.covered.size(), 0) {
+          visibility_(count_), view_factor_(count_, 0.0f) {
         sums_.assign(3 * dome.weights.size(), std::vector<float>(count_, 0.0f));
         open_.assign(3 * dome.weights.size() + 1, Vec3d(0.0));
         if (points.normal.empty()) return;
@@ -187,7 +188,6 @@ class Accumulator {
     void add(std::size_t direction, std::span<const std::uint64_t> visible) {
         std::uint64_t any_visible = 0, any_hidden = 0;
         for (int row = 0; row < points_.height; ++row) {
-            lit_[row] |= visible[row];
             any_visible |= visible[row];
             any_hidden |= visible[row] ^ points_.covered[row];
         }
@@ -233,7 +233,6 @@ class Accumulator {
             const Vec3d n = nx_.empty() ? Vec3d(1.0, 0.0, 0.0) : Vec3d(nx_[i], ny_[i], nz_[i]);
             light.sky_view_factor[i] += static_cast<float>(glm::dot(n, open_.back()));
         }
-        light.lit = std::move(lit_);
         return light;
     }
 
@@ -242,7 +241,6 @@ class Accumulator {
     const DomeSamples& dome_;
     std::size_t count_;
     std::vector<float> visibility_, view_factor_;
-    std::vector<std::uint64_t> lit_;
     std::vector<std::vector<float>> sums_;  // [3 instant + channel][texel]
     std::vector<Vec3d> open_;  // [3 instant + channel], and the view factor's: of directions that every texel sees
     // Relief: normals, their mean, and the sine of their largest angle to it.
@@ -266,7 +264,7 @@ Trial try_lattice(const TilePoints& points, VisibilityGrid& grid, const Lattice&
     Trial trial;
     trial.anchored.assign(points.covered.size(), 0);
     const std::size_t count = static_cast<std::size_t>(points.width) * static_cast<std::size_t>(points.height);
-    std::vector<float> net(count, 0.0f), errors(count, 0.0f);
+    std::vector<float> fill_net(count, 0.0f), net(count, 0.0f), errors(count, 0.0f);
     std::vector<std::uint64_t> visible(points.covered.size()), touched(points.covered.size(), 0);
     double square_sum = 0.0;  // Σ e² over pilots and texels, e in {−1, 0, 1}
     for (std::size_t p = 0; p < pilots.size(); ++p) {
@@ -278,7 +276,7 @@ Trial try_lattice(const TilePoints& points, VisibilityGrid& grid, const Lattice&
                 const int column = std::countr_zero(wrong);
                 const std::size_t texel = static_cast<std::size_t>(points.texel(column, row));
                 const float error = visible[row] >> column & 1 ? 1.0f : -1.0f;
-                net[texel] += error;
+                (grid.interpolated()[row] >> column & 1 ? net : fill_net)[texel] += error;
                 errors[texel] += 1.0f;
                 square_sum += 1.0;
                 touched[row] |= 1ull << column;
@@ -289,7 +287,7 @@ Trial try_lattice(const TilePoints& points, VisibilityGrid& grid, const Lattice&
         for (std::uint64_t left = touched[row]; left; left &= left - 1) {
             const int column = std::countr_zero(left);
             const std::size_t texel = static_cast<std::size_t>(points.texel(column, row));
-            if (errors[texel] >= kAnchoredErrors && std::abs(net[texel]) >= kAnchoredDeviations * std::sqrt(errors[texel])) {
+            if (std::abs(fill_net[texel]) >= kAnchoredFills || std::abs(net[texel]) > kAnchoredDeviations * std::sqrt(errors[texel])) {
                 trial.anchored[row] |= 1ull << column;
             }
         }
@@ -366,7 +364,7 @@ TileLight light_tile(const TilePoints& points, const DomeSamples& dome, Directio
         return std::move(sum).light();
     }
 
-    // Pilots: evenly through the list, which is sorted by azimuth and, within, well spread in elevation.
+    // Pilots: evenly through the list, from low to high and all around.
     std::vector<std::size_t> pilot_index;
     std::vector<std::vector<std::uint64_t>> pilots;
     std::uint64_t visible_pairs = 0;

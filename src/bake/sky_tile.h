@@ -39,7 +39,6 @@ struct TilePoints {
 struct TileLight {
     std::vector<std::vector<Rgb>> sky;   // [instant][texel], lx per channel
     std::vector<float> sky_view_factor;  // [texel]
-    std::vector<std::uint64_t> lit;      // [row]: bit set where at least one direction is visible
 };
 
 struct SkyTileOptions {

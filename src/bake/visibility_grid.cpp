@@ -93,7 +93,7 @@ void VisibilityGrid::find_mixed(int cell, std::span<const std::uint64_t> visible
     }
 }
 
-void VisibilityGrid::interpolate(int cell, float threshold, const Rows& mixed, std::span<std::uint64_t> visible) const {
+void VisibilityGrid::interpolate(int cell, float threshold, const Rows& mixed, std::span<std::uint64_t> visible) {
     const EdgeMasks& masks = edge_masks(cell, threshold);
     for (int y0 = 0; y0 + cell < points_.height; y0 += cell) {
         for (std::uint64_t left = mixed[y0]; left; left &= left - 1) {
@@ -103,6 +103,7 @@ void VisibilityGrid::interpolate(int cell, float threshold, const Rows& mixed, s
             const std::uint64_t cell_columns = columns(x0, x0 + cell);
             for (int row = 0; row <= cell; ++row) {
                 const std::uint64_t open = cell_columns & ~known_[y0 + row];
+                interpolated_[y0 + row] |= open;
                 visible[y0 + row] = (visible[y0 + row] & ~open) | (static_cast<std::uint64_t>(masks[corners][static_cast<std::size_t>(row)]) << x0 & open);
             }
         }
@@ -125,6 +126,7 @@ std::size_t VisibilityGrid::solve(const Lattice& lattice, float threshold, Visib
     std::fill(visible.begin(), visible.end(), 0);
     known_.fill(0);
     wanted_.fill(0);
+    interpolated_.fill(0);
     const int first = lattice.first_cell;
     for (int y = 0; y + first < points_.height; y += first) {
         const std::uint64_t cells = in_use_[level_of(first)][y];
@@ -133,36 +135,38 @@ std::size_t VisibilityGrid::solve(const Lattice& lattice, float threshold, Visib
     }
     std::size_t looked_at = look(source, visible);
 
-    Rows mixed;
-    for (int cell = first;; cell /= 2) {
-        const bool is_last = cell <= lattice.last_cell;
+    Rows mixed{}, to_interpolate{};
+    for (int cell = first; cell >= 1; cell /= 2) {
+        // Below the last cell only what is forced is looked at.
+        const bool is_halving = cell > lattice.last_cell || cell == 1;
         const int half = cell / 2;
         for (;;) {
             find_mixed(cell, visible, mixed);
-            for (int y = 0; y < points_.height; y += std::max(half, 1)) wanted_[y] = 0;
+            const Rows& forced = forced_[level_of(cell)];
+            std::fill_n(wanted_.begin(), points_.height, 0);
             for (int y = 0; y + cell < points_.height; y += cell) {
-                const std::uint64_t m = mixed[y];
-                if (!m) continue;
-                std::uint64_t side = m | m << cell;
-                if (!is_last) {
-                    side |= m << half;
-                    wanted_[y + half] |= side;
-                }
-                wanted_[y] |= side;
-                wanted_[y + cell] |= side;
+                const std::uint64_t refined = is_halving ? mixed[y] : forced[y];
+                const std::uint64_t corners = cell >= lattice.last_cell ? mixed[y] : refined;
+                if (!corners) continue;
+                wanted_[y] |= corners | corners << cell;
+                wanted_[y + cell] |= corners | corners << cell;
+                if (cell == 1 || !refined) continue;
+                wanted_[y] |= refined << half;
+                wanted_[y + half] |= refined | refined << half | refined << cell;
+                wanted_[y + cell] |= refined << half;
             }
             std::uint64_t any = 0;
-            for (int y = 0; y < points_.height; y += std::max(half, 1)) any |= wanted_[y] &= ~known_[y];
+            for (int y = 0; y < points_.height; ++y) any |= wanted_[y] &= ~known_[y];
             if (!any) break;
             looked_at += look(source, visible);
         }
-        if (is_last) {
-            for (int fill = cell; fill > 1; fill /= 2) fill_next_level(fill, visible);
-            if (cell > 1) interpolate(cell, threshold, mixed, visible);
-            break;
-        }
+        if (cell == 1) break;
         fill_next_level(cell, visible);
+        if (cell == lattice.last_cell) {
+            for (int y = 0; y < points_.height; ++y) to_interpolate[y] = mixed[y] & ~forced_[level_of(cell)][y];
+        }
     }
+    if (lattice.last_cell > 1) interpolate(lattice.last_cell, threshold, to_interpolate, visible);
     for (int row = 0; row < points_.height; ++row) visible[row] &= points_.covered[row];
     return looked_at;
 }

@@ -41,6 +41,9 @@ class VisibilityGrid {
     /// Returns how many texels were looked at.
     std::size_t solve(const Lattice& lattice, float threshold, VisibilitySource& source, std::span<std::uint64_t> visible);
 
+    /// [row]: the texels that the last solution interpolated.
+    std::span<const std::uint64_t> interpolated() const { return interpolated_; }
+
   private:
     static constexpr int kLevels = 5;  // cells of 16, 8, 4, 2 and 1 texels
     using Rows = std::array<std::uint64_t, TilePoints::kMaxSize>;
@@ -49,13 +52,13 @@ class VisibilityGrid {
     std::size_t look(VisibilitySource& source, std::span<std::uint64_t> visible);
     void find_mixed(int cell, std::span<const std::uint64_t> visible, Rows& mixed) const;
     void fill_next_level(int cell, std::span<std::uint64_t> visible) const;
-    void interpolate(int cell, float threshold, const Rows& mixed, std::span<std::uint64_t> visible) const;
+    void interpolate(int cell, float threshold, const Rows& mixed, std::span<std::uint64_t> visible);
 
     const TilePoints& points_;
     // [level][row]: bit set at a cell's first column and row. Cells without covered texels are never looked into.
     std::array<Rows, kLevels> in_use_{}, forced_{};
     std::array<std::uint64_t, kLevels> cell_columns_{};  // first columns of cells
-    Rows known_{}, wanted_{};
+    Rows known_{}, wanted_{}, interpolated_{};
 };
 
 }  // namespace skybake

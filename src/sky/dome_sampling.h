@@ -16,8 +16,7 @@ namespace skybake {
 ///   relief charts:  E_k = Σ_j weight[k][j] V_j max(0, normal · direction_j)   (each texel has its own normal)
 /// and the sky view factor likewise with view_factor_weight.
 struct DomeSamples {
-    std::vector<Vec3f>
-        directions;  // unit, above the horizon, sorted by azimuth so that neighbours in the list are near in the sky
+    std::vector<Vec3f> directions;          // unit, above the horizon, from low to high; any run of them covers all azimuths
     std::vector<std::vector<Rgb>> weights;  // [instant][direction], lx per channel
     std::vector<float> view_factor_weight;  // [direction]
 
@@ -26,8 +25,8 @@ struct DomeSamples {
 
 /// Importance sampler of the skies of several instants at once: the density follows the cosine about the normal times a
 /// mixture of the skies' luminances and a uniform part (for the view factor), so that one set of visibilities serves
-/// every instant. Points: Hammersley's set with bases (N, 2), warped by the inverse of the tabulated density: first the
-/// azimuth, then the elevation. The warp depends on the normal continuously and on nothing else, so charts of equal
+/// every instant. Points: Fibonacci's lattice, warped by the inverse of the tabulated density: first the
+/// height, then the azimuth. The warp depends on the normal continuously and on nothing else, so charts of equal
 /// normal share their directions, and nearly equal normals share their error. The weights are scaled so that without
 /// obstacles they give the irradiance of the tabulated sky exactly (ratio estimator): only the visible share is
 /// estimated.

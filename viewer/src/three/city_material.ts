@@ -63,7 +63,7 @@ in float _chart;
 uniform highp sampler2D uScales;
 uniform mat3 uMapTransform;
 out vec2 vUv;
-out vec2 vLightUv;
+centroid out vec2 vLightUv;
 flat out vec2 vScale;
 #ifdef USE_COLOR
 out vec3 vTint;
@@ -90,7 +90,7 @@ void main() {
 // The gutter about a chart is two texels wide: level 1 of the mip chain is the last one whose bilinear footprint stays inside it.
 const fragmentShader = /* glsl */ `
 in vec2 vUv;
-in vec2 vLightUv;
+centroid in vec2 vLightUv;
 flat in vec2 vScale;
 #ifdef USE_COLOR
 in vec3 vTint;
