@@ -25,7 +25,9 @@ namespace {
 
 constexpr int kTile = TilePoints::kMaxTexels;
 // A texel is a feature where geometry stands within this many texels of its point: a chimney's foot, a dormer's wall, an eave.
-constexpr float kFeatureReach = 1.5f;
+// Box town at 0.25 m, tolerance 1 %: reach 0 gives 8 % of the rays, error 1.3 % of the mean, worst texel 44 %; 0.75 gives 14 %, 0.37 %, 8 %;
+// 1.5 gives 15 %, 0.36 %, 6.5 %.
+constexpr float kFeatureReach = 0.75f;
 // Height above the surface at which features are looked for, in texels of the chart: what stands lower casts no shadow worth a texel.
 constexpr float kFeatureHeight = 0.1f;
 

@@ -119,6 +119,15 @@ inline constexpr std::array kFindingCodes{
     FindingCode{"SB501", Severity::warning, "city has no ground",
                 "Pass --ground plane or --ground draped to add one that receives light and shadow."},
     FindingCode{"SB502", Severity::info, "ground was added", "Nothing to do."},
+
+    FindingCode{"SB601", Severity::warning, "turbidity is outside the range of the sky model",
+                "Take 2 for very clear, 3 for clear, 6 for hazy air."},
+    FindingCode{"SB602", Severity::warning, "sun is on or below the horizon",
+                "Choose a time between sunrise and sunset."},
+    FindingCode{"SB603", Severity::info, "published level of the Preetham sky",
+                "Take level=clearsky for numbers that are to be relied on."},
+    FindingCode{"SB604", Severity::warning, "there is no light at all",
+                "Give --at, --sun-direction or another --sky."},
 };
 
 constexpr const FindingCode* find_code(std::string_view code) {
