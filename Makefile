@@ -22,8 +22,9 @@ packages:
 	tools/install-packages
 
 viewer: viewer/dist/index.html
+# Not `npm ci`: npm 11 refuses a lock file when the registry does not list the optional packages of other platforms.
 viewer/dist/index.html: $(VIEWER_SOURCES) schema/manifest.schema.json | packages
-	cd viewer && npm ci --no-audit --no-fund && npm run build
+	cd viewer && npm install --no-save --no-audit --no-fund && npm run build
 
 unit: build
 	ctest --preset $(PRESET) -L unit
