@@ -13,7 +13,8 @@
 
 namespace skybake::bench {
 
-/// The city's scene; objects whose box leaves the square of `radius_m` about the centre of the buildings are dropped, terrain pieces too.
+/// The city's scene; objects whose box leaves the square of `radius_m` about the centre of the buildings are dropped,
+/// terrain pieces too.
 inline Scene load_scene(const std::string& file, double radius_m, float texel_m) {
     SilentProgress silent;
     const std::array<std::filesystem::path, 1> files{file};
@@ -24,7 +25,9 @@ inline Scene load_scene(const std::string& file, double radius_m, float texel_m)
         for (const Vec3d& v : object.geometry.vertices) buildings.extend(v);
     }
     const Vec3d center = buildings.center();
-    const auto is_near = [&](const Vec3d& v) { return std::abs(v.x - center.x) <= radius_m && std::abs(v.y - center.y) <= radius_m; };
+    const auto is_near = [&](const Vec3d& v) {
+        return std::abs(v.x - center.x) <= radius_m && std::abs(v.y - center.y) <= radius_m;
+    };
     CityModel part = loaded.city;
     part.objects.clear();
     for (CityObject& object : loaded.city.objects) {

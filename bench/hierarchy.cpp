@@ -1,5 +1,5 @@
-// Rays against error: full sampling with fewer directions, and the hierarchy with several tolerances, both against a converged full bake,
-// and the hierarchy against full sampling of its own directions.
+// Rays against error: full sampling with fewer directions, and the hierarchy with several tolerances, both against a
+// converged full bake, and the hierarchy against full sampling of its own directions.
 //   bench_hierarchy CITY TEXEL_M [RADIUS_M] [REFERENCE_DIRECTIONS]
 #include <cmath>
 
@@ -24,8 +24,10 @@ Error error_of(const Lightmaps& a, const Lightmaps& reference) {
     const auto for_texels = [&](const auto& body) {
         for (std::size_t p = 0; p < reference.pages.size(); ++p) {
             for (std::size_t i = 0; i < reference.pages[p].state.size(); ++i) {
-                if (reference.pages[p].state[i] != TexelState::chart || a.pages[p].state[i] != TexelState::chart) continue;
-                body(static_cast<double>(luminance(a.instants[0].pages[p].sky[i])), static_cast<double>(luminance(reference.instants[0].pages[p].sky[i])));
+                if (reference.pages[p].state[i] != TexelState::chart || a.pages[p].state[i] != TexelState::chart)
+                    continue;
+                body(static_cast<double>(luminance(a.instants[0].pages[p].sky[i])),
+                     static_cast<double>(luminance(reference.instants[0].pages[p].sky[i])));
             }
         }
     };
@@ -63,25 +65,29 @@ int main(int argc, char** argv) {
     };
     BakeReport report;
     const Lightmaps reference = bake(reference_directions, std::nullopt, report);
-    fmt::print("{} triangles, {:.3f} million texels of {} m; reference: full sampling, {} directions, {:.0f} s\n", scene.triangles.size(),
-               static_cast<double>(atlas.texel_count()) * 1e-6, texel_m, reference_directions, report.seconds.sky);
+    fmt::print("{} triangles, {:.3f} million texels of {} m; reference: full sampling, {} directions, {:.0f} s\n",
+               scene.triangles.size(), static_cast<double>(atlas.texel_count()) * 1e-6, texel_m, reference_directions,
+               report.seconds.sky);
     const double texels = static_cast<double>(report.rays.sky) / reference_directions;
-    fmt::print("{:>12} {:>10} {:>12} {:>9} | {:>22} | {:>30} {:>9}\n", "sampling", "directions", "rays/texel", "sky s", "RMSE to reference, %",
-               "to the same directions: RMSE %", "max %, texels off by 10 % of the mean");
+    fmt::print("{:>12} {:>10} {:>12} {:>9} | {:>22} | {:>30} {:>9}\n", "sampling", "directions", "rays/texel", "sky s",
+               "RMSE to reference, %", "to the same directions: RMSE %", "max %, texels off by 10 % of the mean");
     for (const int directions : {128, 256, 512, 1024, 2048}) {
         BakeReport full_report;
         const Lightmaps full = bake(directions, std::nullopt, full_report);
         const Error error = error_of(full, reference);
-        fmt::print("{:>12} {:>10} {:>12.1f} {:>9.2f} | {:>22.3f} |\n", "full", directions, static_cast<double>(full_report.rays.sky) / texels, full_report.seconds.sky,
+        fmt::print("{:>12} {:>10} {:>12.1f} {:>9.2f} | {:>22.3f} |\n", "full", directions,
+                   static_cast<double>(full_report.rays.sky) / texels, full_report.seconds.sky,
                    100.0 * error.rmse_over_mean);
         if (directions < 512) continue;
         for (const float tolerance : {0.02f, 0.01f, 0.005f}) {
             BakeReport fast_report;
             const Lightmaps fast = bake(directions, tolerance, fast_report);
             const Error own = error_of(fast, full);
-            fmt::print("{:>12} {:>10} {:>12.1f} {:>9.2f} | {:>22.3f} | {:>30.3f} {:>9.1f} {} of {} ({:.1f} % of the rays)\n", fmt::format("tol {}", tolerance), directions,
-                       static_cast<double>(fast_report.rays.sky) / texels, fast_report.seconds.sky, 100.0 * error_of(fast, reference).rmse_over_mean,
-                       100.0 * own.rmse_over_mean, 100.0 * own.max_over_mean, own.off, own.texels, 100.0 * fast_report.evaluated_fraction);
+            fmt::print(
+                "{:>12} {:>10} {:>12.1f} {:>9.2f} | {:>22.3f} | {:>30.3f} {:>9.1f} {} of {} ({:.1f} % of the rays)\n",
+                fmt::format("tol {}", tolerance), directions, static_cast<double>(fast_report.rays.sky) / texels,
+                fast_report.seconds.sky, 100.0 * error_of(fast, reference).rmse_over_mean, 100.0 * own.rmse_over_mean,
+                100.0 * own.max_over_mean, own.off, own.texels, 100.0 * fast_report.evaluated_fraction);
         }
     }
 }

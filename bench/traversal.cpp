@@ -1,5 +1,5 @@
-// How near the bake comes to the rays that Embree can trace: skylight rays per second of a full bake, and of a bare loop of
-// rtcOccluded16 with one direction over the same points of the same scene, taken in turns in one run.
+// How near the bake comes to the rays that Embree can trace: skylight rays per second of a full bake, and of a bare
+// loop of rtcOccluded16 with one direction over the same points of the same scene, taken in turns in one run.
 //   bench_traversal CITY TEXEL_M [RADIUS_M] [ROUNDS]
 #include <embree3/rtcore.h>
 #include <tbb/parallel_for.h>
@@ -16,7 +16,9 @@ namespace {
 
 using namespace skybake;
 using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+double seconds_since(Clock::time_point begin) {
+    return std::chrono::duration<double>(Clock::now() - begin).count();
+}
 
 /// Points of one chart, in blocks of 4 × 4 texels within bands, as a tile's packets are.
 struct ChartPoints {
@@ -80,8 +82,10 @@ int main(int argc, char** argv) {
     rtcSetSceneFlags(bare, RTC_SCENE_FLAG_ROBUST);
     rtcSetSceneBuildQuality(bare, RTC_BUILD_QUALITY_HIGH);
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* vertices = static_cast<Vec3f*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3f), 3 * scene.triangles.size()));
-    auto* indices = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), scene.triangles.size()));
+    auto* vertices = static_cast<Vec3f*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                                 sizeof(Vec3f), 3 * scene.triangles.size()));
+    auto* indices = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                                                   3 * sizeof(unsigned), scene.triangles.size()));
     for (std::size_t i = 0; i < 3 * scene.triangles.size(); ++i) {
         vertices[i] = scene.triangles[i / 3][i % 3];
         indices[i] = static_cast<unsigned>(i);
@@ -113,9 +117,10 @@ int main(int argc, char** argv) {
     }
 
     SilentProgress silent;
-    fmt::print("{} triangles, {} charts, {:.2f} million texels of {} m, {}\n", scene.triangles.size(), atlas.charts.size(),
-               static_cast<double>(atlas.texel_count()) * 1e-6, texel_m, rays.isa());
-    fmt::print("{:>28} {:>28} {:>7} {:>34}\n", "bare loop, million rays/s", "full bake, million rays/s", "share", "hierarchy: s, share of rays, of time");
+    fmt::print("{} triangles, {} charts, {:.2f} million texels of {} m, {}\n", scene.triangles.size(),
+               atlas.charts.size(), static_cast<double>(atlas.texel_count()) * 1e-6, texel_m, rays.isa());
+    fmt::print("{:>28} {:>28} {:>7} {:>34}\n", "bare loop, million rays/s", "full bake, million rays/s", "share",
+               "hierarchy: s, share of rays, of time");
     std::vector<double> shares;
     for (int round = 0; round < rounds; ++round) {
         const double limit = bare_loop(bare, charts);
@@ -123,8 +128,9 @@ int main(int argc, char** argv) {
         bake_lightmaps(scene, atlas, rays, instants, {1024, std::nullopt}, silent, full);
         bake_lightmaps(scene, atlas, rays, instants, {1024, 0.01f}, silent, hierarchy);
         shares.push_back(full.rays_per_second / limit);
-        fmt::print("{:28.1f} {:28.1f} {:6.1f}% {:16.2f} {:8.1f}% {:7.1f}%\n", limit * 1e-6, full.rays_per_second * 1e-6, 100.0 * shares.back(),
-                   hierarchy.seconds.sky, 100.0 * hierarchy.evaluated_fraction, 100.0 * hierarchy.seconds.sky / full.seconds.sky);
+        fmt::print("{:28.1f} {:28.1f} {:6.1f}% {:16.2f} {:8.1f}% {:7.1f}%\n", limit * 1e-6, full.rays_per_second * 1e-6,
+                   100.0 * shares.back(), hierarchy.seconds.sky, 100.0 * hierarchy.evaluated_fraction,
+                   100.0 * hierarchy.seconds.sky / full.seconds.sky);
     }
     std::sort(shares.begin(), shares.end());
     fmt::print("median share of the bare loop: {:.1f} %\n", 100.0 * shares[shares.size() / 2]);

@@ -40,7 +40,8 @@ class CallbackProgress final : public Progress {
 };
 
 Site site_of(const std::array<double, 2>& degrees) {
-    if (!(std::abs(degrees[0]) <= 90.0) || !(std::abs(degrees[1]) <= 180.0)) throw InputError("site: latitude within ±90° and longitude within ±180° are needed.");
+    if (!(std::abs(degrees[0]) <= 90.0) || !(std::abs(degrees[1]) <= 180.0))
+        throw InputError("site: latitude within ±90° and longitude within ±180° are needed.");
     return {radians_from_degrees(degrees[0]), radians_from_degrees(degrees[1]), 0.0};
 }
 
@@ -58,7 +59,9 @@ auto translated(const Body& body) {
 
 }  // namespace
 
-std::string version() { return SKYBAKE_VERSION; }
+std::string version() {
+    return SKYBAKE_VERSION;
+}
 
 Sun sun_position(const std::string& time, double latitude_deg, double longitude_deg, double elevation_m) {
     return translated([&] {
@@ -75,8 +78,10 @@ BakeResult bake(const Bake& settings) {
         BakeCityOptions options;
         for (const std::string& file : settings.files) options.files.emplace_back(file);
         if (options.files.empty()) throw InputError("bake: name at least one city file.");
-        if (!(settings.texel_m >= 0.01 && settings.texel_m <= 100.0)) throw InputError("bake: texel_m must lie between 0.01 and 100 metres.");
-        if (settings.sky_samples < 1 || settings.sky_samples > 1'000'000) throw InputError("bake: sky_samples must lie between 1 and 1 000 000.");
+        if (!(settings.texel_m >= 0.01 && settings.texel_m <= 100.0))
+            throw InputError("bake: texel_m must lie between 0.01 and 100 metres.");
+        if (settings.sky_samples < 1 || settings.sky_samples > 1'000'000)
+            throw InputError("bake: sky_samples must lie between 1 and 1 000 000.");
         if (settings.ground == "plane") {
             options.load.ground = GroundChoice::plane;
         } else if (settings.ground == "draped") {
@@ -88,16 +93,20 @@ BakeResult bake(const Bake& settings) {
         options.output = settings.output;
         options.texel_m = static_cast<float>(settings.texel_m);
         options.bake.sky_samples = settings.sky_samples;
-        options.bake.tolerance = settings.full_sampling ? std::nullopt : std::optional(static_cast<float>(settings.tolerance));
+        options.bake.tolerance =
+            settings.full_sampling ? std::nullopt : std::optional(static_cast<float>(settings.tolerance));
         options.daylight.sky = parse_sky(settings.sky);
         options.daylight.sun = parse_sun_shape(settings.sun);
-        for (const std::string& instant : settings.at) options.daylight.instants.push_back(parse_instant(instant, std::nullopt));
+        for (const std::string& instant : settings.at)
+            options.daylight.instants.push_back(parse_instant(instant, std::nullopt));
         if (settings.sun_direction_deg) {
-            options.daylight.sun_direction = SunDirection{radians_from_degrees((*settings.sun_direction_deg)[0]), radians_from_degrees((*settings.sun_direction_deg)[1])};
+            options.daylight.sun_direction = SunDirection{radians_from_degrees((*settings.sun_direction_deg)[0]),
+                                                          radians_from_degrees((*settings.sun_direction_deg)[1])};
         }
         if (settings.site_deg) options.site = site_of(*settings.site_deg);
         options.version = version();
-        options.settings = {{"sky", settings.sky}, {"sun", settings.sun}, {"ground", settings.ground}, {"lod", settings.lod}};
+        options.settings = {
+            {"sky", settings.sky}, {"sun", settings.sun}, {"ground", settings.ground}, {"lod", settings.lod}};
         CallbackProgress progress(settings.progress);
         const BakeCityResult result = bake_city(options, progress);
         BakeResult answer;
@@ -109,7 +118,8 @@ BakeResult bake(const Bake& settings) {
         answer.sky_rays = result.report.rays.sky;
         answer.seconds = result.report.seconds.total;
         answer.evaluated_fraction = result.report.evaluated_fraction;
-        for (const Finding& f : result.findings.list()) answer.findings.push_back({f.code, name_of(f.severity), f.where, f.what, f.remedy, f.count});
+        for (const Finding& f : result.findings.list())
+            answer.findings.push_back({f.code, name_of(f.severity), f.where, f.what, f.remedy, f.count});
         return answer;
     });
 }

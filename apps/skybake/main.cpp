@@ -1,4 +1,5 @@
-// The command line of skybake: parses, runs the chosen verb, and turns errors into messages and exit codes. No physics here.
+// The command line of skybake: parses, runs the chosen verb, and turns errors into messages and exit codes. No physics
+// here.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -75,8 +76,9 @@ int run_arguments(std::vector<std::string> arguments) {
         const std::vector<std::string> extras = app.remaining(true);
         const std::string typed = extras.empty() ? "" : extras.front().substr(0, extras.front().find('='));
         const bool is_flag = typed.rfind("-", 0) == 0;
-        fmt::print(stderr, "skybake: unknown {} '{}'; did you mean '{}'? See skybake {}--help.\n", is_flag ? "flag" : "word", typed,
-                   nearest_known(app, typed), app.get_subcommands().empty() ? "" : app.get_subcommands().front()->get_name() + " ");
+        fmt::print(stderr, "skybake: unknown {} '{}'; did you mean '{}'? See skybake {}--help.\n",
+                   is_flag ? "flag" : "word", typed, nearest_known(app, typed),
+                   app.get_subcommands().empty() ? "" : app.get_subcommands().front()->get_name() + " ");
         return kWrongUse;
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app.exit(error);
@@ -102,7 +104,9 @@ int main(int argc, char** argv) {
         fmt::print(stderr, "skybake: out of memory. Use a coarser --texel, or a part of the city.\n");
         return kWrongUse;
     } catch (const std::exception& error) {
-        fmt::print(stderr, "skybake: internal error: {}\nThis is a bug of skybake; please report it with the command line.\n", error.what());
+        fmt::print(stderr,
+                   "skybake: internal error: {}\nThis is a bug of skybake; please report it with the command line.\n",
+                   error.what());
         return kOurBug;
     }
 }

@@ -16,7 +16,9 @@ CLI::App* add_verb(CLI::App& app, Program& program, const std::string& name, con
     CLI::App* verb = app.add_subcommand(name, description);
     verb->footer("Examples:\n" + examples);
     CommonOptions& common = program.common;
-    verb->add_option("--threads", common.threads, "threads to use; 0 means all cores")->capture_default_str()->check(CLI::Range(0, 1024));
+    verb->add_option("--threads", common.threads, "threads to use; 0 means all cores")
+        ->capture_default_str()
+        ->check(CLI::Range(0, 1024));
     verb->add_option("--seed", common.seed, "seed of all random numbers")->capture_default_str();
     verb->add_flag("--quiet", common.is_quiet, "no progress and no remarks on stderr");
     verb->add_flag("--json", common.wants_json, "one JSON object with the run's figures on stdout");
@@ -40,7 +42,12 @@ int report_findings(const CommonOptions& common, const FindingLog& findings) {
 nlohmann::json to_json(const FindingLog& findings) {
     nlohmann::json list = nlohmann::json::array();
     for (const Finding& f : findings.list()) {
-        list.push_back({{"code", f.code}, {"severity", name_of(f.severity)}, {"where", f.where}, {"what", f.what}, {"remedy", f.remedy}, {"count", f.count}});
+        list.push_back({{"code", f.code},
+                        {"severity", name_of(f.severity)},
+                        {"where", f.where},
+                        {"what", f.what},
+                        {"remedy", f.remedy},
+                        {"count", f.count}});
     }
     return list;
 }
@@ -109,11 +116,13 @@ void ConsoleProgress::advance(std::uint64_t steps) {
     const double share = static_cast<double>(done) / static_cast<double>(state_->total);
     const double seconds = static_cast<double>(now) / 1000.0;
     const double remaining = share > 0 ? seconds * (1.0 - share) / share : 0.0;
-    fmt::print(stderr, "{}{}: {:.0f} % ({:.0f} s, about {:.0f} s more){}", state_->is_terminal ? "\r\033[K" : "", state_->stage,
-               100.0 * share, seconds, remaining, state_->is_terminal ? "" : "\n");
+    fmt::print(stderr, "{}{}: {:.0f} % ({:.0f} s, about {:.0f} s more){}", state_->is_terminal ? "\r\033[K" : "",
+               state_->stage, 100.0 * share, seconds, remaining, state_->is_terminal ? "" : "\n");
     std::fflush(stderr);
 }
 
-bool ConsoleProgress::stop_requested() const { return interrupted; }
+bool ConsoleProgress::stop_requested() const {
+    return interrupted;
+}
 
 }  // namespace skybake::cli

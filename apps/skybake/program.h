@@ -30,20 +30,22 @@ struct Program {
     std::function<int()> run;
 };
 
-/// Adds the subcommand `name` with the common options; `run` is called when it was chosen. `examples` stand at the end of its help.
+/// Adds the subcommand `name` with the common options; `run` is called when it was chosen. `examples` stand at the end
+/// of its help.
 CLI::App* add_verb(CLI::App& app, Program& program, const std::string& name, const std::string& description,
                    const std::string& examples, std::function<int()> run);
 
 /// A line for humans on stderr; silent under --quiet.
 void say(const CommonOptions& common, const std::string& line);
-/// Prints all findings for humans on stderr (errors and warnings also under --quiet) and tells the exit code they ask for: kDifference
-/// when --strict and there is one of severity error, else kDone.
+/// Prints all findings for humans on stderr (errors and warnings also under --quiet) and tells the exit code they ask
+/// for: kDifference when --strict and there is one of severity error, else kDone.
 int report_findings(const CommonOptions& common, const FindingLog& findings);
 nlohmann::json to_json(const FindingLog& findings);
 /// The one JSON object of --json, on stdout.
 void print_json(const nlohmann::json& object);
 
-/// Progress on stderr: a moving line with rate and remaining time on a terminal, a line now and then otherwise; Ctrl-C sets stop_requested.
+/// Progress on stderr: a moving line with rate and remaining time on a terminal, a line now and then otherwise; Ctrl-C
+/// sets stop_requested.
 class ConsoleProgress final : public Progress {
   public:
     explicit ConsoleProgress(const CommonOptions& common);
@@ -57,7 +59,8 @@ class ConsoleProgress final : public Progress {
     State* state_;
 };
 
-/// Parses and runs the words of a command line (without the program's name) and returns the exit code; errors of the input are thrown.
+/// Parses and runs the words of a command line (without the program's name) and returns the exit code; errors of the
+/// input are thrown.
 int run_arguments(std::vector<std::string> arguments);
 
 // One file a verb.

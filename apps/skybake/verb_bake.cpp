@@ -4,9 +4,9 @@
 #include <memory>
 
 #include "api/bake_city.h"
+#include "bake_report.h"
 #include "base/error.h"
 #include "base/threads.h"
-#include "bake_report.h"
 #include "city_options.h"
 #include "light_options.h"
 #include "program.h"
@@ -68,13 +68,17 @@ int run(const CommonOptions& common, const Options& options) {
     const int exit_code = report_findings(common, result.findings);
     const BakeReport& report = result.report;
     const StageSeconds& s = report.seconds;
-    say(common, fmt::format("{}: {} buildings, {} triangles, {} charts on {} pages, {:.2f} million texels of {} m", options.output.string(),
-                            report.buildings, report.triangles, report.charts, report.pages, static_cast<double>(report.texels) * 1e-6, report.texel_m));
-    say(common, fmt::format("sky: {:.0f} million rays at {:.1f} million a second; {:.1f} % of full sampling, predicted error against it {:.2f} %",
-                            static_cast<double>(report.rays.sky) * 1e-6, report.rays_per_second * 1e-6, 100.0 * report.evaluated_fraction,
-                            100.0 * report.predicted_rmse_over_mean));
-    say(common, fmt::format("{:.1f} s: read {:.1f}, build {:.1f}, charts {:.1f}, sky {:.1f}, sun {:.1f}, finish {:.1f}, write {:.1f}; {:.0f} MB of memory",
-                            s.total, s.read, s.build, s.charts, s.sky, s.sun, s.finish, s.write, static_cast<double>(report.peak_rss_bytes) * 1e-6));
+    say(common, fmt::format("{}: {} buildings, {} triangles, {} charts on {} pages, {:.2f} million texels of {} m",
+                            options.output.string(), report.buildings, report.triangles, report.charts, report.pages,
+                            static_cast<double>(report.texels) * 1e-6, report.texel_m));
+    say(common, fmt::format("sky: {:.0f} million rays at {:.1f} million a second; {:.1f} % of full sampling, predicted "
+                            "error against it {:.2f} %",
+                            static_cast<double>(report.rays.sky) * 1e-6, report.rays_per_second * 1e-6,
+                            100.0 * report.evaluated_fraction, 100.0 * report.predicted_rmse_over_mean));
+    say(common, fmt::format("{:.1f} s: read {:.1f}, build {:.1f}, charts {:.1f}, sky {:.1f}, sun {:.1f}, finish "
+                            "{:.1f}, write {:.1f}; {:.0f} MB of memory",
+                            s.total, s.read, s.build, s.charts, s.sky, s.sun, s.finish, s.write,
+                            static_cast<double>(report.peak_rss_bytes) * 1e-6));
     say(common, fmt::format("Look at it: skybake view {}", options.output.string()));
     if (common.wants_json) {
         nlohmann::json object = to_json(report);
@@ -95,10 +99,22 @@ nlohmann::json to_json(const BakeReport& report) {
             {"pages", report.pages},
             {"texels", report.texels},
             {"texel_m", report.texel_m},
-            {"rays", {{"sun", report.rays.sun}, {"sky", report.rays.sky}, {"photon", report.rays.photon}, {"feeler", report.rays.feeler}}},
+            {"rays",
+             {{"sun", report.rays.sun},
+              {"sky", report.rays.sky},
+              {"photon", report.rays.photon},
+              {"feeler", report.rays.feeler}}},
             {"seconds",
-             {{"read", s.read}, {"build", s.build}, {"charts", s.charts}, {"sun", s.sun}, {"sky", s.sky}, {"photons", s.photons},
-              {"gather", s.gather}, {"finish", s.finish}, {"write", s.write}, {"total", s.total}}},
+             {{"read", s.read},
+              {"build", s.build},
+              {"charts", s.charts},
+              {"sun", s.sun},
+              {"sky", s.sky},
+              {"photons", s.photons},
+              {"gather", s.gather},
+              {"finish", s.finish},
+              {"write", s.write},
+              {"total", s.total}}},
             {"rays_per_second", report.rays_per_second},
             {"evaluated_fraction", report.evaluated_fraction},
             {"predicted_rmse_over_mean", report.predicted_rmse_over_mean},
@@ -107,15 +123,18 @@ nlohmann::json to_json(const BakeReport& report) {
 
 void add_bake(CLI::App& app, Program& program) {
     const auto options = std::make_shared<Options>();
-    CLI::App* verb = add_verb(app, program, "bake", "Computes sun and sky for every surface of a city, into lightmaps with a walkthrough.",
-                              "  skybake bake town.city.json -o lit --at 2026-06-21T12:00+02:00\n"
-                              "  skybake bake delft.city.json -o lit --at 2026-03-21T08:00Z/2026-03-21T16:00Z/2h --ground plane\n"
-                              "  skybake bake city.jsonl -o lit --sun-direction 200,35 --texel 0.25 --sampling full",
-                              [&program, options] { return run(program.common, *options); });
+    CLI::App* verb = add_verb(
+        app, program, "bake", "Computes sun and sky for every surface of a city, into lightmaps with a walkthrough.",
+        "  skybake bake town.city.json -o lit --at 2026-06-21T12:00+02:00\n"
+        "  skybake bake delft.city.json -o lit --at 2026-03-21T08:00Z/2026-03-21T16:00Z/2h --ground plane\n"
+        "  skybake bake city.jsonl -o lit --sun-direction 200,35 --texel 0.25 --sampling full",
+        [&program, options] { return run(program.common, *options); });
     add_city_options(verb, options->city);
     add_light_options(verb, options->light);
     verb->add_option("-o,--output", options->output, "folder to write")->required();
-    verb->add_option("--texel", options->texel_m, "length of a lightmap texel, metres")->capture_default_str()->check(CLI::Range(0.01, 100.0));
+    verb->add_option("--texel", options->texel_m, "length of a lightmap texel, metres")
+        ->capture_default_str()
+        ->check(CLI::Range(0.01, 100.0));
     verb->add_option("--sampling", options->sampling, "hierarchical, or full: every direction from every texel")
         ->capture_default_str()
         ->check(CLI::IsMember({"hierarchical", "full"}));

@@ -28,7 +28,8 @@ int run(const CommonOptions& common, const Options& options) {
     const std::string city = (folder / "town.city.json").string(), lit = (folder / "lit").string();
     std::vector<std::vector<std::string>> commands{
         {"town", "-o", city, "--buildings", std::to_string(options.buildings), "--seed", std::to_string(common.seed)},
-        {"bake", city, "-o", lit, "--texel", fmt::format("{}", options.texel_m), "--at", options.at, "--threads", std::to_string(common.threads)}};
+        {"bake", city, "-o", lit, "--texel", fmt::format("{}", options.texel_m), "--at", options.at, "--threads",
+         std::to_string(common.threads)}};
     if (!options.only_bakes) {
         commands.push_back({"view", lit, "--port", std::to_string(options.port)});
         if (options.stays_closed) commands.back().push_back("--no-open");
@@ -47,13 +48,18 @@ int run(const CommonOptions& common, const Options& options) {
 
 void add_demo(CLI::App& app, Program& program) {
     const auto options = std::make_shared<Options>();
-    CLI::App* verb = add_verb(app, program, "demo", "Builds the procedural old town, bakes it, and opens the walkthrough.",
-                              "  skybake demo\n"
-                              "  skybake demo small --buildings 60 --texel 0.5 --no-open",
-                              [&program, options] { return run(program.common, *options); });
+    CLI::App* verb =
+        add_verb(app, program, "demo", "Builds the procedural old town, bakes it, and opens the walkthrough.",
+                 "  skybake demo\n"
+                 "  skybake demo small --buildings 60 --texel 0.5 --no-open",
+                 [&program, options] { return run(program.common, *options); });
     verb->add_option("DIR", options->folder, "folder for the town and its bake")->capture_default_str();
-    verb->add_option("--buildings", options->buildings, "buildings of the town")->capture_default_str()->check(CLI::Range(10, 100000));
-    verb->add_option("--texel", options->texel_m, "length of a lightmap texel, metres")->capture_default_str()->check(CLI::Range(0.01, 100.0));
+    verb->add_option("--buildings", options->buildings, "buildings of the town")
+        ->capture_default_str()
+        ->check(CLI::Range(10, 100000));
+    verb->add_option("--texel", options->texel_m, "length of a lightmap texel, metres")
+        ->capture_default_str()
+        ->check(CLI::Range(0.01, 100.0));
     verb->add_option("--at", options->at, "instants to bake")->capture_default_str();
     verb->add_option("--port", options->port, "port on 127.0.0.1; 0 takes a free one")->capture_default_str();
     verb->add_flag("--no-open", options->stays_closed, "only serve, do not open the browser");

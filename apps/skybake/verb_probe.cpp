@@ -33,15 +33,19 @@ int run(const CommonOptions& common, const Options& options) {
     LoadedCity loaded = load_city(options.city.files, options.city.load_options(), progress);
     const std::vector<Daylight> daylights =
         daylights_of(options.light, loaded.georeference.site, loaded.georeference.convergence_rad, loaded.findings);
-    if (daylights.size() != 1) throw InputError("probe answers for one instant: give --at a single time, or call it once for each.");
-    const Scene scene = build_scene(loaded.city, scene_options(parse_albedo(options.light.albedo), 0.5f), loaded.findings);
+    if (daylights.size() != 1)
+        throw InputError("probe answers for one instant: give --at a single time, or call it once for each.");
+    const Scene scene =
+        build_scene(loaded.city, scene_options(parse_albedo(options.light.albedo), 0.5f), loaded.findings);
     const RayScene rays(scene);
 
     std::vector<ReceiverPoint> receivers;
-    for (const io::ProbePoint& point : points) receivers.push_back({Vec3f(point.position - scene.origin), Vec3f(point.normal)});
+    for (const io::ProbePoint& point : points)
+        receivers.push_back({Vec3f(point.position - scene.origin), Vec3f(point.normal)});
     const DomeSampler sampler(daylights);
     const Daylight& daylight = daylights.front();
-    const std::vector<PointLight> light = light_points(receivers, sampler, 0, daylight.sun, rays, {options.light.sky_samples, 64});
+    const std::vector<PointLight> light =
+        light_points(receivers, sampler, 0, daylight.sun, rays, {options.light.sky_samples, 64});
     std::vector<io::ProbeLight> rows;
     for (const PointLight& point : light) {
         io::ProbeLight row;
@@ -54,14 +58,18 @@ int run(const CommonOptions& common, const Options& options) {
     }
     const int exit_code = report_findings(common, loaded.findings);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    say(common, fmt::format("{} points, {} directions each, {:.1f} s", points.size(), options.light.sky_samples, seconds));
+    say(common,
+        fmt::format("{} points, {} directions each, {:.1f} s", points.size(), options.light.sky_samples, seconds));
     if (!options.output.empty()) {
         io::write_probe_csv(options.output, points, rows);
     } else if (!common.wants_json) {
         fmt::print("{}", io::probe_csv(points, rows));
     }
     if (common.wants_json) {
-        print_json({{"points", points.size()}, {"instant", daylight.label}, {"sky_samples", options.light.sky_samples}, {"seconds", seconds},
+        print_json({{"points", points.size()},
+                    {"instant", daylight.label},
+                    {"sky_samples", options.light.sky_samples},
+                    {"seconds", seconds},
                     {"findings", to_json(loaded.findings)}});
     }
     return exit_code;
@@ -71,10 +79,11 @@ int run(const CommonOptions& common, const Options& options) {
 
 void add_probe(CLI::App& app, Program& program) {
     const auto options = std::make_shared<Options>();
-    CLI::App* verb = add_verb(app, program, "probe", "Light at points of a CSV (id,x,y,z,nx,ny,nz in map coordinates), without a lightmap.",
-                              "  skybake probe town.city.json --points points.csv --at 2026-06-21T12:00+02:00\n"
-                              "  skybake probe town.city.json --points points.csv --sky uniform:luminance=1000 --sun none -o light.csv",
-                              [&program, options] { return run(program.common, *options); });
+    CLI::App* verb = add_verb(
+        app, program, "probe", "Light at points of a CSV (id,x,y,z,nx,ny,nz in map coordinates), without a lightmap.",
+        "  skybake probe town.city.json --points points.csv --at 2026-06-21T12:00+02:00\n"
+        "  skybake probe town.city.json --points points.csv --sky uniform:luminance=1000 --sun none -o light.csv",
+        [&program, options] { return run(program.common, *options); });
     add_city_options(verb, options->city);
     add_light_options(verb, options->light);
     verb->add_option("--points", options->points, "CSV with the points")->required();

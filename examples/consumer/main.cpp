@@ -8,7 +8,8 @@
 
 namespace {
 
-const char* const kHouse = R"({"type":"CityJSON","version":"2.0","transform":{"scale":[0.001,0.001,0.001],"translate":[0,0,0]},
+const char* const kHouse =
+    R"({"type":"CityJSON","version":"2.0","transform":{"scale":[0.001,0.001,0.001],"translate":[0,0,0]},
 "metadata":{"referenceSystem":"https://www.opengis.net/def/crs/EPSG/0/31256"},
 "CityObjects":{"house":{"type":"Building","geometry":[{"type":"Solid","lod":"1","boundaries":[[[[0,3,2,1]],[[4,5,6,7]],[[0,1,5,4]],
 [[1,2,6,5]],[[2,3,7,6]],[[3,0,4,7]]]]}]}},
@@ -18,7 +19,8 @@ const char* const kHouse = R"({"type":"CityJSON","version":"2.0","transform":{"s
 
 int main() {
     const skybake::api::Sun sun = skybake::api::sun_position("2006-06-21T11:00:00Z", 47.0707, 15.4395, 353.0);
-    std::printf("skybake %s: the sun over Graz at azimuth %.4f, elevation %.4f\n", skybake::api::version().c_str(), sun.azimuth_deg, sun.elevation_deg);
+    std::printf("skybake %s: the sun over Graz at azimuth %.4f, elevation %.4f\n", skybake::api::version().c_str(),
+                sun.azimuth_deg, sun.elevation_deg);
     if (std::abs(sun.elevation_deg - 66.369243) > 0.0005) return 1;  // pvlib's NREL SPA
 
     const std::filesystem::path folder = std::filesystem::temp_directory_path() / "skybake-consumer";

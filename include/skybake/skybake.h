@@ -34,9 +34,11 @@ struct Sun {
     double distance_au = 1.0;
 };
 
-/// Position of the sun by NREL SPA (Reda & Andreas 2004; within 0.0005°). `time` is ISO 8601 with offset or Z; `latitude_deg` and
-/// `longitude_deg` are geodetic WGS 84, north and east positive. Throws Error for anything else. Thread-safe.
-SKYBAKE_API Sun sun_position(const std::string& time, double latitude_deg, double longitude_deg, double elevation_m = 0.0);
+/// Position of the sun by NREL SPA (Reda & Andreas 2004; within 0.0005°). `time` is ISO 8601 with offset or Z;
+/// `latitude_deg` and `longitude_deg` are geodetic WGS 84, north and east positive. Throws Error for anything else.
+/// Thread-safe.
+SKYBAKE_API Sun sun_position(const std::string& time, double latitude_deg, double longitude_deg,
+                             double elevation_m = 0.0);
 
 /// A finding about a part of the input: what it is, and what was done about it (docs/findings.md).
 struct Note {
@@ -50,13 +52,13 @@ struct Note {
 struct Bake {
     std::vector<std::string> files;
     std::string output;
-    std::vector<std::string> at;           // instants, ISO 8601; or
+    std::vector<std::string> at;                             // instants, ISO 8601; or
     std::optional<std::array<double, 2>> sun_direction_deg;  // azimuth from true north, elevation
     std::optional<std::array<double, 2>> site_deg;           // latitude, longitude; default: from the city's CRS
     std::string sky = "preetham:turbidity=3,level=clearsky";
     std::string sun = "point";
-    std::string ground = "none";           // "plane" or "draped" for a city without one
-    std::string lod;                       // empty: the highest of each object
+    std::string ground = "none";  // "plane" or "draped" for a city without one
+    std::string lod;              // empty: the highest of each object
     double texel_m = 0.5;
     int sky_samples = 1024;
     bool full_sampling = false;
@@ -72,8 +74,9 @@ struct BakeResult {
     std::vector<Note> findings;
 };
 
-/// Reads the city, computes sun and sky, and writes the folder of the bake (docs/formats.md; the walkthrough's own files are added by the program
-/// `skybake`). Throws Error for unusable input, and when `progress` returned false. Two bakes in one process do not meet.
+/// Reads the city, computes sun and sky, and writes the folder of the bake (docs/formats.md; the walkthrough's own
+/// files are added by the program `skybake`). Throws Error for unusable input, and when `progress` returned false. Two
+/// bakes in one process do not meet.
 SKYBAKE_API BakeResult bake(const Bake& settings);
 
 }  // namespace skybake::api

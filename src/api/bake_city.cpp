@@ -17,7 +17,9 @@ namespace skybake {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+double seconds_since(Clock::time_point begin) {
+    return std::chrono::duration<double>(Clock::now() - begin).count();
+}
 
 std::uint64_t peak_rss_bytes() {
     rusage usage{};
@@ -33,8 +35,8 @@ std::size_t count_buildings(const Scene& scene) {
     return buildings.size();
 }
 
-io::BakeDescription describe(const BakeCityOptions& options, const LoadedCity& loaded, const RayScene& rays, const std::vector<Daylight>& daylights,
-                             std::vector<io::BakeView> views) {
+io::BakeDescription describe(const BakeCityOptions& options, const LoadedCity& loaded, const RayScene& rays,
+                             const std::vector<Daylight>& daylights, std::vector<io::BakeView> views) {
     io::BakeDescription description;
     description.version = options.version;
     description.title = options.files.front().stem().stem().string();
@@ -72,7 +74,8 @@ SceneOptions scene_options(const std::vector<std::pair<std::string, Rgb>>& albed
         const SurfaceType type = static_cast<SurfaceType>(i);
         auto entry = stated(name_of(type));
         // Who says "ground" means what one walks on.
-        if (entry == albedo.end() && (type == SurfaceType::terrain || type == SurfaceType::road)) entry = stated(name_of(SurfaceType::ground));
+        if (entry == albedo.end() && (type == SurfaceType::terrain || type == SurfaceType::road))
+            entry = stated(name_of(SurfaceType::ground));
         if (entry == albedo.end()) entry = stated("default");
         if (entry != albedo.end()) options.albedo_override.emplace_back(type, entry->second);
     }
@@ -87,12 +90,15 @@ BakeCityResult bake_city(const BakeCityOptions& options, Progress& progress) {
     result.report.seconds.read = seconds_since(begin);
 
     const std::vector<Daylight> daylights =
-        make_daylights(options.daylight, options.site ? options.site : loaded.georeference.site, loaded.georeference.convergence_rad, result.findings);
+        make_daylights(options.daylight, options.site ? options.site : loaded.georeference.site,
+                       loaded.georeference.convergence_rad, result.findings);
 
     const auto build_begin = Clock::now();
     const Scene scene = build_scene(loaded.city, scene_options(options.albedo, options.texel_m), result.findings);
     loaded.city = CityModel();  // its memory is wanted for the light
-    if (scene.triangles.empty()) throw InputError(fmt::format("{}: no surface is left to light; see the findings of skybake check.", options.files.front().string()));
+    if (scene.triangles.empty())
+        throw InputError(fmt::format("{}: no surface is left to light; see the findings of skybake check.",
+                                     options.files.front().string()));
     const RayScene rays(scene);
     result.report.seconds.build = seconds_since(build_begin);
 
@@ -109,8 +115,10 @@ BakeCityResult bake_city(const BakeCityOptions& options, Progress& progress) {
     const Lightmaps light = bake_lightmaps(scene, atlas, rays, daylights, options.bake, progress, result.report);
 
     const auto write_begin = Clock::now();
-    const io::BakeDescription description = describe(options, loaded, rays, daylights, default_views(scene, atlas, light, rays));
-    result.written = io::write_bake(options.output, {scene, atlas, light, description, result.report, result.findings}, progress);
+    const io::BakeDescription description =
+        describe(options, loaded, rays, daylights, default_views(scene, atlas, light, rays));
+    result.written =
+        io::write_bake(options.output, {scene, atlas, light, description, result.report, result.findings}, progress);
     result.report.seconds.write = seconds_since(write_begin);
     result.report.seconds.total = seconds_since(begin);
     result.report.peak_rss_bytes = peak_rss_bytes();

@@ -19,7 +19,7 @@ struct BakeCityOptions {
     std::vector<std::filesystem::path> files;
     LoadOptions load;
     DaylightSettings daylight;
-    std::optional<Site> site;  // instead of what the CRS says
+    std::optional<Site> site;                         // instead of what the CRS says
     std::vector<std::pair<std::string, Rgb>> albedo;  // by the name of the surface type, and "default"
     float texel_m = 0.5f;
     BakeOptions bake;
@@ -35,7 +35,8 @@ struct BakeCityResult {
     io::WrittenBake written;
 };
 
-/// Reads, builds, bakes and writes. Throws InputError for unusable input, among it a city without any surface, and Interrupted.
+/// Reads, builds, bakes and writes. Throws InputError for unusable input, among it a city without any surface, and
+/// Interrupted.
 BakeCityResult bake_city(const BakeCityOptions& options, Progress& progress);
 
 /// How the scene of a loaded city is made for texels of `texel_m` metres: used by everything that computes light.

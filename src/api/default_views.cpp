@@ -29,7 +29,8 @@ Box3f bounds_of_buildings(const Scene& scene) {
 
 }  // namespace
 
-std::vector<io::BakeView> default_views(const Scene& scene, const Atlas& atlas, const Lightmaps& light, const RayScene& rays) {
+std::vector<io::BakeView> default_views(const Scene& scene, const Atlas& atlas, const Lightmaps& light,
+                                        const RayScene& rays) {
     const Box3f box = bounds_of_buildings(scene);
     const Vec3f center(box.center().x, box.center().y, box.lo.z + 0.2f * box.size().z);
     const float reach = std::max({box.size().x, box.size().y, box.size().z, 10.0f});
@@ -40,16 +41,20 @@ std::vector<io::BakeView> default_views(const Scene& scene, const Atlas& atlas, 
     Vec3f eye(0.0f);
     for (const Chart& chart : atlas.charts) {
         const Face& face = scene.faces[scene.triangle_face[chart.triangles.front()].index()];
-        if (!is_ground(scene.objects[face.object].type) || chart.normal.z < 0.97f || face.type == SurfaceType::water) continue;
+        if (!is_ground(scene.objects[face.object].type) || chart.normal.z < 0.97f || face.type == SurfaceType::water)
+            continue;
         const LightmapPage& page = light.pages[chart.page.index()];
         for (int row = 0; row < chart.size.y; row += 4) {
             for (int column = 0; column < chart.size.x; column += 4) {
-                const std::size_t texel = static_cast<std::size_t>(chart.position.y + row) * static_cast<std::size_t>(page.width) +
-                                          static_cast<std::size_t>(chart.position.x + column);
+                const std::size_t texel =
+                    static_cast<std::size_t>(chart.position.y + row) * static_cast<std::size_t>(page.width) +
+                    static_cast<std::size_t>(chart.position.x + column);
                 const float open = page.sky_view_factor[texel];
                 if (page.state[texel] != TexelState::chart || open < kStreetMin || open > kStreetMax) continue;
-                const Vec3f p = chart.origin + (static_cast<float>(column) + 0.5f) * chart.u + (static_cast<float>(row) + 0.5f) * chart.v;
-                const float distance = glm::length(Vec2f(p - center)) - (face.type == SurfaceType::road ? kRoadBonus : 0.0f);
+                const Vec3f p = chart.origin + (static_cast<float>(column) + 0.5f) * chart.u +
+                                (static_cast<float>(row) + 0.5f) * chart.v;
+                const float distance =
+                    glm::length(Vec2f(p - center)) - (face.type == SurfaceType::road ? kRoadBonus : 0.0f);
                 if (distance < nearest) {
                     nearest = distance;
                     eye = p;

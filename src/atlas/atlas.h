@@ -12,9 +12,9 @@
 
 namespace skybake {
 
-/// A plane of texels with the triangles that lie in it. Texel (i, j) has its centre at origin + (i + 0.5) u + (j + 0.5) v, local metres;
-/// u runs along
-/// the wall's own horizontal, v downwards (row 0 is the top), both one texel long (at most: a wall is divided into whole texels from edge to edge), and u × v points against the normal.
+/// A plane of texels with the triangles that lie in it. Texel (i, j) has its centre at origin + (i + 0.5) u + (j + 0.5)
+/// v, local metres; u runs along the wall's own horizontal, v downwards (row 0 is the top), both one texel long (at
+/// most: a wall is divided into whole texels from edge to edge), and u × v points against the normal.
 struct Chart {
     PageId page;
     Vec2i position{0};  // column and row of texel (0, 0) in its page
@@ -23,8 +23,9 @@ struct Chart {
     Vec3f u{0.0f};
     Vec3f v{0.0f};
     Vec3f normal{0.0f, 0.0f, 1.0f};
-    /// Cosine of the largest angle between the chart's normal and that of one of its triangles: 1 for a planar chart. Charts of terrain and
-    /// scanned meshes hold nearly coplanar triangles; their texels are projected along the normal onto the surface.
+    /// Cosine of the largest angle between the chart's normal and that of one of its triangles: 1 for a planar chart.
+    /// Charts of terrain and scanned meshes hold nearly coplanar triangles; their texels are projected along the normal
+    /// onto the surface.
     float min_normal_cosine = 1.0f;
     std::vector<std::uint32_t> triangles;  // indices into Scene::triangles, ascending
     std::uint64_t stable_id = 0;           // from object ids and surfaces: does not hang on the order of the file
@@ -45,9 +46,10 @@ struct Seam {
 struct Atlas {
     float texel_m = 0.5f;
     std::vector<Chart> charts;
-    std::vector<AtlasPage> pages;  // at most kMaxPageSize squared
-    std::vector<ChartId> triangle_chart;                   // one a scene triangle
-    std::vector<std::array<Vec2f, 3>> triangle_texels;     // page texel coordinates of the corners; (0, 0) is the page's upper left corner
+    std::vector<AtlasPage> pages;         // at most kMaxPageSize squared
+    std::vector<ChartId> triangle_chart;  // one a scene triangle
+    std::vector<std::array<Vec2f, 3>>
+        triangle_texels;  // page texel coordinates of the corners; (0, 0) is the page's upper left corner
 
     std::vector<Seam> seams;
 

@@ -72,7 +72,8 @@ Adjacency adjacency_of(const Scene& scene) {
     for (std::size_t begin = 0; begin < edges.size();) {
         std::size_t end = begin + 1;
         while (end < edges.size() && edges[end].key() == edges[begin].key()) ++end;
-        // A chain instead of all pairs: enough to connect, and linear where strangers hang a thousand triangles on one edge.
+        // A chain instead of all pairs: enough to connect, and linear where strangers hang a thousand triangles on one
+        // edge.
         for (std::size_t i = begin + 1; i < end; ++i) {
             pairs.emplace_back(edges[i - 1].triangle, edges[i].triangle, edges[i - 1].edge);
             pairs.emplace_back(edges[i].triangle, edges[i - 1].triangle, edges[i].edge);
@@ -120,9 +121,8 @@ Vec3f longest_border(const Scene& scene, const std::vector<std::uint32_t>& trian
             edges.push_back({a, b, glm::dot(b - a, b - a)});
         }
     }
-    std::sort(edges.begin(), edges.end(), [&](const Edge& x, const Edge& y) {
-        return x.low != y.low ? less(x.low, y.low) : less(x.high, y.high);
-    });
+    std::sort(edges.begin(), edges.end(),
+              [&](const Edge& x, const Edge& y) { return x.low != y.low ? less(x.low, y.low) : less(x.high, y.high); });
     Vec3f longest(1.0f, 0.0f, 0.0f);
     float length2 = 0.0f;
     for (std::size_t i = 0; i < edges.size(); ++i) {
@@ -139,13 +139,15 @@ Vec3f longest_border(const Scene& scene, const std::vector<std::uint32_t>& trian
 
 class ChartBuilder {
   public:
-    ChartBuilder(const Scene& scene, float texel_m) : scene_(scene), texel_m_(texel_m), adjacency_(adjacency_of(scene)) {
+    ChartBuilder(const Scene& scene, float texel_m)
+        : scene_(scene), texel_m_(texel_m), adjacency_(adjacency_of(scene)) {
         normal_.reserve(scene.triangles.size());
         face_normal_.resize(scene.faces.size());
         face_area_.resize(scene.faces.size());
         for (std::size_t f = 0; f < scene.faces.size(); ++f) {
             Vec3f sum(0.0f);
-            for (std::uint32_t i = 0; i < scene.faces[f].triangle_count; ++i) sum += area_vector(scene.triangles[scene.faces[f].first_triangle + i]);
+            for (std::uint32_t i = 0; i < scene.faces[f].triangle_count; ++i)
+                sum += area_vector(scene.triangles[scene.faces[f].first_triangle + i]);
             face_area_[f] = glm::length(sum);
             face_normal_[f] = face_area_[f] > 0.0f ? sum / face_area_[f] : Vec3f(0.0f, 0.0f, 1.0f);
         }
@@ -168,7 +170,8 @@ class ChartBuilder {
                 if (a == b) continue;
                 const int k = adjacency_.edge[i];
                 const bool is_smooth = glm::dot(charts_[a].normal, charts_[b].normal) >= kSeamCosine;
-                atlas.seams.push_back({ChartId(a), ChartId(b), scene_.triangles[t][k], scene_.triangles[t][(k + 1) % 3], is_smooth});
+                atlas.seams.push_back(
+                    {ChartId(a), ChartId(b), scene_.triangles[t][k], scene_.triangles[t][(k + 1) % 3], is_smooth});
             }
         }
         atlas.charts = std::move(charts_);
@@ -202,7 +205,8 @@ class ChartBuilder {
         const auto belongs = [&](std::uint32_t t) {
             const float cosine = glm::dot(normal_[t], normal);
             bool is_coplanar = cosine > kCoplanarCosine;
-            for (const Vec3f& p : scene_.triangles[t]) is_coplanar = is_coplanar && std::abs(glm::dot(p - anchor, normal)) < kCoplanarDistance;
+            for (const Vec3f& p : scene_.triangles[t])
+                is_coplanar = is_coplanar && std::abs(glm::dot(p - anchor, normal)) < kCoplanarDistance;
             return is_coplanar || (is_relief && may_tilt(t) && cosine > kReliefCosine);
         };
 
@@ -236,7 +240,8 @@ class ChartBuilder {
 
     /// Frame, extent and texel grid of a chart whose triangles are known.
     void finish(Chart& chart, const Vec3f& normal, bool is_relief) {
-        const Frame frame = frame_of(normal, is_relief ? Vec3f(1.0f, 0.0f, 0.0f) : longest_border(scene_, chart.triangles));
+        const Frame frame =
+            frame_of(normal, is_relief ? Vec3f(1.0f, 0.0f, 0.0f) : longest_border(scene_, chart.triangles));
         chart.normal = frame.normal;
         Box2f box;
         double height_sum = 0.0;
@@ -247,7 +252,8 @@ class ChartBuilder {
             }
             const float cosine = glm::dot(normal_[t], frame.normal);
             // Within half a degree is one plane: its own slant is that of rounded corners.
-            if (cosine < 0.99996f) chart.min_normal_cosine = std::clamp(std::min(chart.min_normal_cosine, cosine), 0.1f, 1.0f);
+            if (cosine < 0.99996f)
+                chart.min_normal_cosine = std::clamp(std::min(chart.min_normal_cosine, cosine), 0.1f, 1.0f);
         }
         Vec2f texel(texel_m_);
         for (int axis = 0; axis < 2; ++axis) {
@@ -255,7 +261,8 @@ class ChartBuilder {
             if (is_relief) {
                 // The lattice of neighbouring pieces goes on.
                 box.lo[axis] = std::floor(box.lo[axis] / texel_m_) * texel_m_;
-                chart.size[axis] = std::max(1, static_cast<int>(std::ceil((box.hi[axis] - box.lo[axis]) / texel_m_ - 1e-3f)));
+                chart.size[axis] =
+                    std::max(1, static_cast<int>(std::ceil((box.hi[axis] - box.lo[axis]) / texel_m_ - 1e-3f)));
             } else {
                 // A whole number of texels from edge to edge: none is cut by a straight wall's border.
                 chart.size[axis] = std::max(1, static_cast<int>(std::ceil(width / texel_m_ - 1e-3f)));
@@ -268,7 +275,8 @@ class ChartBuilder {
         chart.origin = box.lo.x * frame.u + box.lo.y * frame.v + static_cast<float>(height) * frame.normal;
         const std::uint32_t first = chart.triangles.front();
         const Face& face = face_of(first);
-        chart.stable_id = hash_combine(hash_of(scene_.objects[face.object].id), hash_combine(face.source_index, first - face.first_triangle));
+        chart.stable_id = hash_combine(hash_of(scene_.objects[face.object].id),
+                                       hash_combine(face.source_index, first - face.first_triangle));
     }
 
     const Scene& scene_;
@@ -284,7 +292,8 @@ class ChartBuilder {
 
 std::uint64_t Atlas::texel_count() const {
     std::uint64_t count = 0;
-    for (const Chart& chart : charts) count += static_cast<std::uint64_t>(chart.size.x) * static_cast<std::uint64_t>(chart.size.y);
+    for (const Chart& chart : charts)
+        count += static_cast<std::uint64_t>(chart.size.x) * static_cast<std::uint64_t>(chart.size.y);
     return count;
 }
 
@@ -305,7 +314,8 @@ Atlas build_atlas(const Scene& scene, const AtlasOptions& options) {
         const Chart& chart = atlas.charts[c];
         for (const std::uint32_t t : chart.triangles) {
             atlas.triangle_chart[t] = ChartId(c);
-            for (int k = 0; k < 3; ++k) atlas.triangle_texels[t][k] = texel_coordinate(chart, scene.triangles[t][k]) + Vec2f(chart.position);
+            for (int k = 0; k < 3; ++k)
+                atlas.triangle_texels[t][k] = texel_coordinate(chart, scene.triangles[t][k]) + Vec2f(chart.position);
         }
     }
     return atlas;

@@ -11,7 +11,9 @@ namespace {
 // How far a moved point goes inside, in texels: off the very edge, where the next wall stands.
 constexpr float kInset = 0.05f;
 
-float cross(const Vec2f& a, const Vec2f& b) { return a.x * b.y - a.y * b.x; }
+float cross(const Vec2f& a, const Vec2f& b) {
+    return a.x * b.y - a.y * b.x;
+}
 
 /// Barycentric weights of p; all ≥ 0 inside, whatever the orientation. A triangle without area gives negative weights.
 Vec3f barycentric(const std::array<Vec2f, 3>& t, const Vec2f& p) {
@@ -49,7 +51,8 @@ Vec2f nearest_on_border(const std::array<Vec2f, 3>& t, const Vec2f& p) {
 }
 
 /// The point on the triangle above `p` (texels): the plane point with the height interpolated between the corners.
-Vec3f lift(const Chart& chart, const std::array<Vec3f, 3>& corners, const std::array<Vec2f, 3>& texels, const Vec2f& p) {
+Vec3f lift(const Chart& chart, const std::array<Vec3f, 3>& corners, const std::array<Vec2f, 3>& texels,
+           const Vec2f& p) {
     Vec3f w = glm::max(barycentric(texels, p), Vec3f(0.0f));
     const float sum = w.x + w.y + w.z;
     w = sum > 0.0f ? w / sum : Vec3f(1.0f / 3.0f);
@@ -80,7 +83,8 @@ ChartSamples sample_chart(const Scene& scene, const Chart& chart) {
 
     for (const std::uint32_t triangle : chart.triangles) {
         const std::array<Vec3f, 3>& corners = scene.triangles[triangle];
-        const std::array<Vec2f, 3> t{texel_coordinate(chart, corners[0]), texel_coordinate(chart, corners[1]), texel_coordinate(chart, corners[2])};
+        const std::array<Vec2f, 3> t{texel_coordinate(chart, corners[0]), texel_coordinate(chart, corners[1]),
+                                     texel_coordinate(chart, corners[2])};
         samples.triangle_texels.push_back(t);
         const Vec2f center = (t[0] + t[1] + t[2]) / 3.0f;
         const Vec2f lo = glm::min(glm::min(t[0], t[1]), t[2]), hi = glm::max(glm::max(t[0], t[1]), t[2]);

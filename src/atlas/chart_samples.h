@@ -20,18 +20,20 @@ struct ChartSamples {
 
     Vec2i size{0};
     std::vector<Cover> cover;
-    std::vector<Vec3f> position;           // on the surface (not lifted off it), local metres
-    std::vector<std::uint32_t> triangle;   // which scene triangle the point lies in
+    std::vector<Vec3f> position;                        // on the surface (not lifted off it), local metres
+    std::vector<std::uint32_t> triangle;                // which scene triangle the point lies in
     std::vector<std::array<Vec2f, 3>> triangle_texels;  // [i]: corners of chart.triangles[i] in texels of the chart
 
-    std::size_t index(int column, int row) const { return static_cast<std::size_t>(row) * static_cast<std::size_t>(size.x) + static_cast<std::size_t>(column); }
+    std::size_t index(int column, int row) const {
+        return static_cast<std::size_t>(row) * static_cast<std::size_t>(size.x) + static_cast<std::size_t>(column);
+    }
 };
 
 /// Unit normal of a scene triangle as light sees it: its own, or the chart's for a sliver.
 Vec3f shading_normal(const Scene& scene, const Chart& chart, std::uint32_t triangle);
 
-/// Every texel that touches the chart's polygon gets a point inside the polygon (DESIGN §4: none may take light from the other side of a
-/// wall). A chart has at least one covered texel.
+/// Every texel that touches the chart's polygon gets a point inside the polygon (DESIGN §4: none may take light from
+/// the other side of a wall). A chart has at least one covered texel.
 ChartSamples sample_chart(const Scene& scene, const Chart& chart);
 
 /// True when the point, in texels of the chart, lies in the scene triangle, which must be one of the chart's.

@@ -26,7 +26,9 @@ constexpr int kPageBlocks = kMaxPageSize / kBlock;
 // How much more area than a page holds is offered to it; empirical: above 1.3 pages get fuller by less than 1 %.
 constexpr double kOffer = 1.3;
 
-int blocks_of(int texels) { return (texels + 2 * kGutter + kBlock - 1) / kBlock; }
+int blocks_of(int texels) {
+    return (texels + 2 * kGutter + kBlock - 1) / kBlock;
+}
 
 }  // namespace
 

@@ -24,11 +24,12 @@ namespace skybake {
 namespace {
 
 constexpr int kTile = TilePoints::kMaxTexels;
-// A texel is a feature where geometry stands within this many texels of its point: a chimney's foot, a dormer's wall, an eave.
-// Box town at 0.25 m, tolerance 1 %: reach 0 gives 8 % of the rays, error 1.3 % of the mean, worst texel 44 %; 0.75 gives 14 %, 0.37 %, 8 %;
-// 1.5 gives 15 %, 0.36 %, 6.5 %.
+// A texel is a feature where geometry stands within this many texels of its point: a chimney's foot, a dormer's wall,
+// an eave. Box town at 0.25 m, tolerance 1 %: reach 0 gives 8 % of the rays, error 1.3 % of the mean, worst texel 44 %;
+// 0.75 gives 14 %, 0.37 %, 8 %; 1.5 gives 15 %, 0.36 %, 6.5 %.
 constexpr float kFeatureReach = 0.75f;
-// Height above the surface at which features are looked for, in texels of the chart: what stands lower casts no shadow worth a texel.
+// Height above the surface at which features are looked for, in texels of the chart: what stands lower casts no shadow
+// worth a texel.
 constexpr float kFeatureHeight = 0.1f;
 
 using Clock = std::chrono::steady_clock;
@@ -42,7 +43,10 @@ class StageClock {
         struct AddOnExit {
             StageClock& clock;
             Clock::time_point begin;
-            ~AddOnExit() { clock.nanoseconds_ += std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - begin).count(); }
+            ~AddOnExit() {
+                clock.nanoseconds_ +=
+                    std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - begin).count();
+            }
         } add{*this, begin};
         return body();
     }
@@ -74,14 +78,15 @@ std::vector<ChartGroup> group_by_normal(const Atlas& atlas) {
         groups.back().texels += static_cast<std::uint64_t>(size.x) * static_cast<std::uint64_t>(size.y);
     }
     // Large ones first: the last task to finish is a small one.
-    std::stable_sort(groups.begin(), groups.end(), [](const ChartGroup& a, const ChartGroup& b) { return a.texels > b.texels; });
+    std::stable_sort(groups.begin(), groups.end(),
+                     [](const ChartGroup& a, const ChartGroup& b) { return a.texels > b.texels; });
     return groups;
 }
 
 class Baker {
   public:
-    Baker(const Scene& scene, const Atlas& atlas, const RayScene& rays, std::span<const Daylight> instants, const BakeOptions& options,
-          Progress& progress)
+    Baker(const Scene& scene, const Atlas& atlas, const RayScene& rays, std::span<const Daylight> instants,
+          const BakeOptions& options, Progress& progress)
         : scene_(scene), atlas_(atlas), rays_(rays), options_(options), progress_(progress), sampler_(instants) {
         lightmaps_.pages.resize(atlas.pages.size());
         for (std::size_t p = 0; p < atlas.pages.size(); ++p) {
@@ -96,7 +101,8 @@ class Baker {
         for (const Daylight& daylight : instants) {
             BakedInstant& instant = lightmaps_.instants.emplace_back(BakedInstant{daylight, {}});
             for (const AtlasPage& page : atlas.pages) {
-                instant.pages.push_back({std::vector<Rgb>(texels_of(page), Rgb(0.0f)), std::vector<float>(texels_of(page), 0.0f)});
+                instant.pages.push_back(
+                    {std::vector<Rgb>(texels_of(page), Rgb(0.0f)), std::vector<float>(texels_of(page), 0.0f)});
             }
         }
     }
@@ -105,7 +111,8 @@ class Baker {
         const auto begin = Clock::now();
         progress_.begin("sun and sky", atlas_.texel_count());
         const std::vector<ChartGroup> groups = group_by_normal(atlas_);
-        tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) { light_group(groups[g]); }, tbb::simple_partitioner());
+        tbb::parallel_for(
+            std::size_t{0}, groups.size(), [&](std::size_t g) { light_group(groups[g]); }, tbb::simple_partitioner());
         const double wall = std::chrono::duration<double>(Clock::now() - begin).count();
         const auto join_begin = Clock::now();
         join_seams(atlas_, lightmaps_);
@@ -121,27 +128,36 @@ class Baker {
         report.rays.sky = statistics_.rays;
         report.rays.sun = sun_rays_;
         report.rays.feeler = feature_rays_ + buried_rays_;
-        report.rays_per_second = report.seconds.sky > 0.0 ? static_cast<double>(statistics_.rays) / report.seconds.sky : 0.0;
-        report.evaluated_fraction = statistics_.pairs > 0 ? static_cast<double>(statistics_.rays) / static_cast<double>(statistics_.pairs) : 1.0;
+        report.rays_per_second =
+            report.seconds.sky > 0.0 ? static_cast<double>(statistics_.rays) / report.seconds.sky : 0.0;
+        report.evaluated_fraction = statistics_.pairs > 0
+                                        ? static_cast<double>(statistics_.rays) / static_cast<double>(statistics_.pairs)
+                                        : 1.0;
         if (statistics_.view_factor_sum > 0) {
             const double n = static_cast<double>(statistics_.texels);
-            report.predicted_rmse_over_mean = std::sqrt(static_cast<double>(statistics_.squared_error_sum) * 0x1p-32 / n) /
-                                              (static_cast<double>(statistics_.view_factor_sum) * 0x1p-32 / n);
+            report.predicted_rmse_over_mean =
+                std::sqrt(static_cast<double>(statistics_.squared_error_sum) * 0x1p-32 / n) /
+                (static_cast<double>(statistics_.view_factor_sum) * 0x1p-32 / n);
         }
         return std::move(lightmaps_);
     }
 
   private:
-    static std::size_t texels_of(const AtlasPage& page) { return static_cast<std::size_t>(page.width) * static_cast<std::size_t>(page.height); }
+    static std::size_t texels_of(const AtlasPage& page) {
+        return static_cast<std::size_t>(page.width) * static_cast<std::size_t>(page.height);
+    }
 
     void light_group(const ChartGroup& group) {
         if (progress_.stop_requested()) throw Interrupted();
         const Chart& first = atlas_.charts[group.charts.front().index()];
         const DomeSamples dome = sky_clock_.measure([&] {
-            return first.min_normal_cosine >= 1.0f ? sampler_.sample(first.normal, options_.sky_samples)
-                                                   : sampler_.sample_relief(first.normal, first.min_normal_cosine, options_.sky_samples);
+            return first.min_normal_cosine >= 1.0f
+                       ? sampler_.sample(first.normal, options_.sky_samples)
+                       : sampler_.sample_relief(first.normal, first.min_normal_cosine, options_.sky_samples);
         });
-        tbb::parallel_for(std::size_t{0}, group.charts.size(), [&](std::size_t i) { light_chart(group.charts[i], dome); }, tbb::simple_partitioner());
+        tbb::parallel_for(
+            std::size_t{0}, group.charts.size(), [&](std::size_t i) { light_chart(group.charts[i], dome); },
+            tbb::simple_partitioner());
     }
 
     void light_chart(ChartId id, const DomeSamples& dome) {
@@ -152,10 +168,14 @@ class Baker {
         light.sky.assign(lightmaps_.instants.size(), std::vector<Rgb>(count, Rgb(0.0f)));
         light.sky_view_factor.assign(count, 0.0f);
         const int columns = (chart.size.x + kTile - 1) / kTile, rows = (chart.size.y + kTile - 1) / kTile;
-        tbb::parallel_for(0, columns * rows, [&](int tile) {
-            if (progress_.stop_requested()) throw Interrupted();
-            sky_clock_.measure([&] { light_sky_tile(chart, samples, dome, tile % columns, tile / columns, light); });
-        }, tbb::simple_partitioner());
+        tbb::parallel_for(
+            0, columns * rows,
+            [&](int tile) {
+                if (progress_.stop_requested()) throw Interrupted();
+                sky_clock_.measure(
+                    [&] { light_sky_tile(chart, samples, dome, tile % columns, tile / columns, light); });
+            },
+            tbb::simple_partitioner());
 
         for (const BakedInstant& instant : lightmaps_.instants) {
             const SunBeam& sun = instant.daylight.sun;
@@ -163,7 +183,8 @@ class Baker {
             if (sun.shape == SunShape::none || luminance(sun.normal_illuminance) <= 0.0f) {
                 light.sun_cosine.emplace_back(count, 0.0f);
             } else {
-                light.sun_cosine.push_back(sun_clock_.measure([&] { return light_sun(scene_, chart, samples, rays_, sun, ray_count); }));
+                light.sun_cosine.push_back(
+                    sun_clock_.measure([&] { return light_sun(scene_, chart, samples, rays_, sun, ray_count); }));
             }
             sun_rays_ += ray_count;
         }
@@ -178,7 +199,8 @@ class Baker {
         progress_.advance(count);
     }
 
-    void light_sky_tile(const Chart& chart, const ChartSamples& samples, const DomeSamples& dome, int tile_column, int tile_row, ChartLight& light) {
+    void light_sky_tile(const Chart& chart, const ChartSamples& samples, const DomeSamples& dome, int tile_column,
+                        int tile_row, ChartLight& light) {
         // Tiles of about equal size: a strip of one texel would cost as much overhead as a whole tile.
         const auto cut = [](int size, int index) {
             const int tiles = (size + kTile - 1) / kTile;
@@ -187,7 +209,9 @@ class Baker {
         const int column0 = cut(chart.size.x, tile_column), column1 = cut(chart.size.x, tile_column + 1);
         const int row0 = cut(chart.size.y, tile_row), row1 = cut(chart.size.y, tile_row + 1);
         const int columns = column1 - column0, rows = row1 - row0;
-        const auto whole_cells = [](int texels) { return std::max((texels - 1 + TilePoints::kCell - 1) / TilePoints::kCell, 1) * TilePoints::kCell + 1; };
+        const auto whole_cells = [](int texels) {
+            return std::max((texels - 1 + TilePoints::kCell - 1) / TilePoints::kCell, 1) * TilePoints::kCell + 1;
+        };
         TilePoints points;
         points.width = whole_cells(columns);
         points.height = whole_cells(rows);
@@ -213,7 +237,8 @@ class Baker {
                 points.covered[row] |= 1ull << column;
             }
         }
-        if (std::all_of(points.covered.begin(), points.covered.end(), [](std::uint64_t row) { return row == 0; })) return;
+        if (std::all_of(points.covered.begin(), points.covered.end(), [](std::uint64_t row) { return row == 0; }))
+            return;
         DirectionPacket packet(rays_);
         if (options_.tolerance) {
             find_features(chart, points, packet);
@@ -276,8 +301,9 @@ class Baker {
 
 }  // namespace
 
-Lightmaps bake_lightmaps(const Scene& scene, const Atlas& atlas, const RayScene& rays, std::span<const Daylight> instants,
-                         const BakeOptions& options, Progress& progress, BakeReport& report) {
+Lightmaps bake_lightmaps(const Scene& scene, const Atlas& atlas, const RayScene& rays,
+                         std::span<const Daylight> instants, const BakeOptions& options, Progress& progress,
+                         BakeReport& report) {
     return Baker(scene, atlas, rays, instants, options, progress).bake(report);
 }
 

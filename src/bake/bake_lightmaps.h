@@ -17,10 +17,11 @@ struct BakeOptions {
     std::optional<float> tolerance = 0.01f;  // of the hierarchy, relative (SkyTileOptions); none: full sampling
 };
 
-/// Sun and sky of all instants for all texels. The dome is traced once and weighed for each instant; the sun is traced for each. Fills in the
-/// report's rays, seconds of the stages sun, sky and finish, rates and fractions. The same bits for any number of threads.
-/// Throws Interrupted when the progress asks to stop.
-Lightmaps bake_lightmaps(const Scene& scene, const Atlas& atlas, const RayScene& rays, std::span<const Daylight> instants,
-                         const BakeOptions& options, Progress& progress, BakeReport& report);
+/// Sun and sky of all instants for all texels. The dome is traced once and weighed for each instant; the sun is traced
+/// for each. Fills in the report's rays, seconds of the stages sun, sky and finish, rates and fractions. The same bits
+/// for any number of threads. Throws Interrupted when the progress asks to stop.
+Lightmaps bake_lightmaps(const Scene& scene, const Atlas& atlas, const RayScene& rays,
+                         std::span<const Daylight> instants, const BakeOptions& options, Progress& progress,
+                         BakeReport& report);
 
 }  // namespace skybake

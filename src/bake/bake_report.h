@@ -23,7 +23,6 @@ struct BakeReport {
     RayCounts rays;
     StageSeconds seconds;
     double rays_per_second = 0.0;           // skylight rays over the seconds of the sky stage
-    double traversal_limit_rays_per_second = 0.0;  // a bare loop of 16-wide packets of one direction, measured in this run
     double evaluated_fraction = 1.0;        // (texel, direction) pairs really traced / all
     double predicted_rmse_over_mean = 0.0;  // of the hierarchy against full sampling, from the pilot directions
     std::uint64_t peak_rss_bytes = 0;

@@ -7,27 +7,29 @@ namespace skybake {
 
 namespace {
 
-constexpr int kNearLit = 3;        // texels: what bilinear lookup and one mip level can reach
+constexpr int kNearLit = 3;  // texels: what bilinear lookup and one mip level can reach
 constexpr std::size_t kBuriedRays = 8;
 constexpr int kBackFacesNeeded = 5;
 // Light that comes through the cracks between ground and wall of a real city does not make a place to stand.
 constexpr float kDarkViewFactor = 0.03f;
-constexpr int kFillRings = 6;      // gutter, block padding, and what lies under a wall's foot
+constexpr int kFillRings = 6;  // gutter, block padding, and what lies under a wall's foot
 
 /// Calls body(index, x, y) for the 3 × 3 neighbourhood inside the grid, the centre left out.
 template <typename Body>
 void for_neighbors(int column, int row, int width, int height, const Body& body) {
     for (int y = std::max(row - 1, 0); y <= std::min(row + 1, height - 1); ++y) {
         for (int x = std::max(column - 1, 0); x <= std::min(column + 1, width - 1); ++x) {
-            if (x != column || y != row) body(static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
+            if (x != column || y != row)
+                body(static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
         }
     }
 }
 
 }  // namespace
 
-std::vector<std::uint8_t> find_buried(const Scene& scene, const Chart& chart, const ChartSamples& samples, const ChartLight& light,
-                                      const DomeSamples& dome, const RayScene& rays, std::uint64_t& ray_count) {
+std::vector<std::uint8_t> find_buried(const Scene& scene, const Chart& chart, const ChartSamples& samples,
+                                      const ChartLight& light, const DomeSamples& dome, const RayScene& rays,
+                                      std::uint64_t& ray_count) {
     const int width = samples.size.x, height = samples.size.y;
     std::vector<std::uint8_t> buried(samples.cover.size(), 0);
     if (dome.size() == 0) return buried;
@@ -48,8 +50,10 @@ std::vector<std::uint8_t> find_buried(const Scene& scene, const Chart& chart, co
         near = std::move(wider);
     }
     for (std::size_t i = 0; i < buried.size(); ++i) {
-        if (samples.cover[i] == ChartSamples::Cover::none || light.sky_view_factor[i] > kDarkViewFactor || !near[i]) continue;
-        const Vec3f origin = samples.position[i] + rays.surface_offset() * shading_normal(scene, chart, samples.triangle[i]);
+        if (samples.cover[i] == ChartSamples::Cover::none || light.sky_view_factor[i] > kDarkViewFactor || !near[i])
+            continue;
+        const Vec3f origin =
+            samples.position[i] + rays.surface_offset() * shading_normal(scene, chart, samples.triangle[i]);
         int back_faces = 0;
         for (std::size_t s = 0; s < kBuriedRays; ++s) {
             const auto hit = rays.first_hit(origin, dome.directions[(2 * s + 1) * dome.size() / (2 * kBuriedRays)]);
@@ -61,8 +65,8 @@ std::vector<std::uint8_t> find_buried(const Scene& scene, const Chart& chart, co
     return buried;
 }
 
-void write_chart(ChartId id, const Chart& chart, const ChartSamples& samples, std::span<const std::uint8_t> buried, const ChartLight& light,
-                 LightmapPage& page, std::span<LightmapLayer* const> layers) {
+void write_chart(ChartId id, const Chart& chart, const ChartSamples& samples, std::span<const std::uint8_t> buried,
+                 const ChartLight& light, LightmapPage& page, std::span<LightmapLayer* const> layers) {
     // The chart's rectangle with its gutter, up to the next block of four.
     const int width = std::min((chart.size.x + 2 * kGutter + 3) / 4 * 4, page.width - chart.position.x + kGutter);
     const int height = std::min((chart.size.y + 2 * kGutter + 3) / 4 * 4, page.height - chart.position.y + kGutter);
@@ -85,7 +89,8 @@ void write_chart(ChartId id, const Chart& chart, const ChartSamples& samples, st
                 layers[k]->sky[p] = light.sky[k][i];
                 layers[k]->sun_cosine[p] = light.sun_cosine[k][i];
             }
-            is_filled[static_cast<std::size_t>(row + kGutter) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column + kGutter)] = !buried[i];
+            is_filled[static_cast<std::size_t>(row + kGutter) * static_cast<std::size_t>(width) +
+                      static_cast<std::size_t>(column + kGutter)] = !buried[i];
         }
     }
 
@@ -94,7 +99,8 @@ void write_chart(ChartId id, const Chart& chart, const ChartSamples& samples, st
         next = is_filled;
         for (int row = 0; row < height; ++row) {
             for (int column = 0; column < width; ++column) {
-                const std::size_t i = static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column);
+                const std::size_t i =
+                    static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column);
                 if (is_filled[i]) continue;
                 int neighbors = 0;
                 float view_factor = 0.0f;
@@ -102,7 +108,8 @@ void write_chart(ChartId id, const Chart& chart, const ChartSamples& samples, st
                 sources.reserve(8);
                 for_neighbors(column, row, width, height, [&](std::size_t j) {
                     if (!is_filled[j]) return;
-                    const std::size_t p = page_index(static_cast<int>(j % static_cast<std::size_t>(width)), static_cast<int>(j / static_cast<std::size_t>(width)));
+                    const std::size_t p = page_index(static_cast<int>(j % static_cast<std::size_t>(width)),
+                                                     static_cast<int>(j / static_cast<std::size_t>(width)));
                     sources.push_back(p);
                     view_factor += page.sky_view_factor[p];
                     ++neighbors;
@@ -144,7 +151,8 @@ void join_seams(const Atlas& atlas, Lightmaps& lightmaps) {
         const Vec2f begin = texel_coordinate(a, seam.begin), end = texel_coordinate(a, seam.end);
         // Every gutter texel whose centre lies within 1.5 texels of the edge: what bilinear lookup along it can touch.
         const Vec2f lo = glm::min(begin, end) - 1.5f, hi = glm::max(begin, end) + 1.5f;
-        const int column_end = std::min(a.size.x + kGutter, static_cast<int>(std::ceil(hi.x))), row_end = std::min(a.size.y + kGutter, static_cast<int>(std::ceil(hi.y)));
+        const int column_end = std::min(a.size.x + kGutter, static_cast<int>(std::ceil(hi.x))),
+                  row_end = std::min(a.size.y + kGutter, static_cast<int>(std::ceil(hi.y)));
         for (int row = std::max(-kGutter, static_cast<int>(std::floor(lo.y))); row < row_end; ++row) {
             for (int column = std::max(-kGutter, static_cast<int>(std::floor(lo.x))); column < column_end; ++column) {
                 const std::size_t p = texel_of(page_a, a.position.x + column, a.position.y + row);
@@ -152,7 +160,8 @@ void join_seams(const Atlas& atlas, Lightmaps& lightmaps) {
                 const Vec2f center(static_cast<float>(column) + 0.5f, static_cast<float>(row) + 0.5f);
                 const Vec2f along = end - begin;
                 const float length2 = glm::dot(along, along);
-                const float t = length2 > 0.0f ? std::clamp(glm::dot(center - begin, along) / length2, 0.0f, 1.0f) : 0.0f;
+                const float t =
+                    length2 > 0.0f ? std::clamp(glm::dot(center - begin, along) / length2, 0.0f, 1.0f) : 0.0f;
                 const Vec2f off = center - (begin + t * along);
                 if (glm::dot(off, off) > 1.5f * 1.5f) continue;
                 // The point of a's plane in b's texels; bilinear over those of b's texels that have light.
@@ -203,13 +212,17 @@ void light_hidden_edges(const Atlas& atlas, Lightmaps& lightmaps) {
         for (int step = 0; step <= steps; ++step) {
             const float t = static_cast<float>(step) / static_cast<float>(steps);
             const Vec2f at_b = b0 + t * (b1 - b0), at_a = a0 + t * (a1 - a0);
-            const int bx = std::clamp(static_cast<int>(std::floor(at_b.x)), 0, b.size.x - 1), by = std::clamp(static_cast<int>(std::floor(at_b.y)), 0, b.size.y - 1);
-            const std::size_t q = static_cast<std::size_t>(b.position.y + by) * static_cast<std::size_t>(page_b.width) + static_cast<std::size_t>(b.position.x + bx);
+            const int bx = std::clamp(static_cast<int>(std::floor(at_b.x)), 0, b.size.x - 1),
+                      by = std::clamp(static_cast<int>(std::floor(at_b.y)), 0, b.size.y - 1);
+            const std::size_t q = static_cast<std::size_t>(b.position.y + by) * static_cast<std::size_t>(page_b.width) +
+                                  static_cast<std::size_t>(b.position.x + bx);
             if (page_b.state[q] != TexelState::chart || page_b.sky_view_factor[q] <= kDarkViewFactor) continue;
             const int ax = static_cast<int>(std::floor(at_a.x)), ay = static_cast<int>(std::floor(at_a.y));
             for (int y = std::max(ay - 1, -kGutter); y <= std::min(ay + 1, a.size.y + kGutter - 1); ++y) {
                 for (int x = std::max(ax - 1, -kGutter); x <= std::min(ax + 1, a.size.x + kGutter - 1); ++x) {
-                    const std::size_t p = static_cast<std::size_t>(a.position.y + y) * static_cast<std::size_t>(page_a.width) + static_cast<std::size_t>(a.position.x + x);
+                    const std::size_t p =
+                        static_cast<std::size_t>(a.position.y + y) * static_cast<std::size_t>(page_a.width) +
+                        static_cast<std::size_t>(a.position.x + x);
                     if (page_a.state[p] == TexelState::chart || page_a.sky_view_factor[p] > kDarkViewFactor) continue;
                     if (page_a.state[p] == TexelState::empty) {
                         page_a.state[p] = TexelState::gutter;

@@ -1,4 +1,5 @@
-// From the light of a chart's own texels to a page that can be looked at: nothing dark where nobody can stand, nothing foreign beside it.
+// From the light of a chart's own texels to a page that can be looked at: nothing dark where nobody can stand, nothing
+// foreign beside it.
 #pragma once
 
 #include <cstdint>
@@ -23,18 +24,20 @@ struct ChartLight {
 /// Which covered texels lie inside or behind another solid: they see next to no sky, and most of what they see are back
 /// faces. Only texels within a few texels of lit ones or of the chart's border are asked, since only those can show.
 /// Adds the number of rays to `ray_count`.
-std::vector<std::uint8_t> find_buried(const Scene& scene, const Chart& chart, const ChartSamples& samples, const ChartLight& light,
-                                      const DomeSamples& dome, const RayScene& rays, std::uint64_t& ray_count);
+std::vector<std::uint8_t> find_buried(const Scene& scene, const Chart& chart, const ChartSamples& samples,
+                                      const ChartLight& light, const DomeSamples& dome, const RayScene& rays,
+                                      std::uint64_t& ray_count);
 
 /// Writes the chart into its page, buried texels and gutter filled from their neighbours.
-void write_chart(ChartId id, const Chart& chart, const ChartSamples& samples, std::span<const std::uint8_t> buried, const ChartLight& light,
-                 LightmapPage& page, std::span<LightmapLayer* const> layers);
+void write_chart(ChartId id, const Chart& chart, const ChartSamples& samples, std::span<const std::uint8_t> buried,
+                 const ChartLight& light, LightmapPage& page, std::span<LightmapLayer* const> layers);
 
-/// Where charts of nearly one plane meet, each one's gutter takes the other's light, so that both show the same along their edge.
+/// Where charts of nearly one plane meet, each one's gutter takes the other's light, so that both show the same along
+/// their edge.
 void join_seams(const Atlas& atlas, Lightmaps& lightmaps);
 
-/// Along the edge of a wall that nobody sees (between two houses, say) the light of the visible wall beside it is put: through the cracks that
-/// rasterisers leave between abutting houses it would show as a dark line.
+/// Along the edge of a wall that nobody sees (between two houses, say) the light of the visible wall beside it is put:
+/// through the cracks that rasterisers leave between abutting houses it would show as a dark line.
 void light_hidden_edges(const Atlas& atlas, Lightmaps& lightmaps);
 
 }  // namespace skybake

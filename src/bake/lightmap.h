@@ -30,7 +30,8 @@ struct LightmapPage {
 /// Light of one instant on one page. Irradiance in lx per channel, linear Rec. 709.
 struct LightmapLayer {
     std::vector<Rgb> sky;           // skylight
-    std::vector<float> sun_cosine;  // sunlit share of the texel × cosine of incidence; × SunBeam::normal_illuminance is the sun's light in lx
+    std::vector<float> sun_cosine;  // sunlit share of the texel × cosine of incidence; × SunBeam::normal_illuminance is
+                                    // the sun's light in lx
 };
 
 struct BakedInstant {

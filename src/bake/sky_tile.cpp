@@ -1,5 +1,6 @@
-// Based on: Reichinger, Maierhofer, Tobler, 2006, §4.2 (light on a coarse lattice of 16 × 16 texels, refined by halving). Deviation: the
-// hierarchy runs over each direction's visibility instead of over their sum (docs/decisions/0003-hierarchy-over-visibility.md).
+// Based on: Reichinger, Maierhofer, Tobler, 2006, §4.2 (light on a coarse lattice of 16 × 16 texels, refined by
+// halving). Deviation: the hierarchy runs over each direction's visibility instead of over their sum
+// (docs/decisions/0003-hierarchy-over-visibility.md).
 #include "bake/sky_tile.h"
 
 #include <algorithm>
@@ -7,12 +8,13 @@
 #include <bit>
 #include <cmath>
 
+#include "bake/visibility_grid.h"
 #include "base/check.h"
 #include "base/low_discrepancy.h"
-#include "bake/visibility_grid.h"
 
 // Each copy does the same operations in the same order, without fused multiply-add: the same bits on every processor.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__) && !defined(__SANITIZE_ADDRESS__)
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__) && \
+    !defined(__SANITIZE_ADDRESS__)
 #define SKYBAKE_WIDE_LOOP __attribute__((target_clones("avx512f", "avx2", "default")))
 #else
 #define SKYBAKE_WIDE_LOOP
@@ -25,14 +27,15 @@ namespace {
 constexpr int kPacket = RayScene::kPacketSize;
 // Directions traced in full before a lattice is chosen: 1.6 % of the rays of 1024 directions.
 constexpr std::size_t kPilots = 16;
-// A texel is traced always when the pilots' errors there do not average out. What was filled from agreeing corners and is wrong is a missed
-// feature: net two of them to one side. What was interpolated is wrong by chance, as often to either side: only a net beyond so many
-// standard deviations (√n for n errors of ±1) is not.
+// A texel is traced always when the pilots' errors there do not average out. What was filled from agreeing corners and
+// is wrong is a missed feature: net two of them to one side. What was interpolated is wrong by chance, as often to
+// either side: only a net beyond so many standard deviations (√n for n errors of ±1) is not.
 constexpr float kAnchoredFills = 2.0f;
 constexpr float kAnchoredDeviations = 3.0f;
 // Tiles with fewer texels are traced in full: a lattice would save nothing.
 constexpr int kSmallTile = 64;
-// In dark tiles the tolerance is relative to this share of the unobstructed light, lest rays are spent on errors nobody sees.
+// In dark tiles the tolerance is relative to this share of the unobstructed light, lest rays are spent on errors nobody
+// sees.
 constexpr float kDarkTile = 0.1f;
 // From cheap to dear; the first that keeps the tolerance in a tile is taken, the last resort being every texel.
 constexpr std::array<Lattice, 7> kLattices{{{16, 4}, {8, 4}, {16, 2}, {8, 2}, {16, 1}, {8, 1}, {4, 1}}};
@@ -43,8 +46,8 @@ SKYBAKE_WIDE_LOOP void add_scaled(float* __restrict acc, const float* __restrict
 }
 
 /// v[i] = visibility × max(0, n · d): what relief charts weigh a direction with.
-SKYBAKE_WIDE_LOOP void apply_cosine(float* __restrict v, const float* __restrict nx, const float* __restrict ny, const float* __restrict nz,
-                                    float dx, float dy, float dz, std::size_t count) {
+SKYBAKE_WIDE_LOOP void apply_cosine(float* __restrict v, const float* __restrict nx, const float* __restrict ny,
+                                    const float* __restrict nz, float dx, float dy, float dz, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
         const float cosine = nx[i] * dx + ny[i] * dy + nz[i] * dz;
         v[i] *= cosine > 0.0f ? cosine : 0.0f;
@@ -130,7 +133,8 @@ class FullSampler {
             for (int column = 0; column < points.width; column += 4) {
                 for (int y = row; y < std::min(row + 4, points.height); ++y) {
                     for (int x = column; x < std::min(column + 4, points.width); ++x) {
-                        if (points.covered[y] >> x & 1) texels_.push_back(static_cast<std::uint16_t>(points.texel(x, y)));
+                        if (points.covered[y] >> x & 1)
+                            texels_.push_back(static_cast<std::uint16_t>(points.texel(x, y)));
                     }
                 }
             }
@@ -168,8 +172,11 @@ class FullSampler {
 class Accumulator {
   public:
     Accumulator(const TilePoints& points, const DomeSamples& dome)
-        : points_(points), dome_(dome), count_(static_cast<std::size_t>(points.width) * static_cast<std::size_t>(points.height)),
-          visibility_(count_), view_factor_(count_, 0.0f) {
+        : points_(points),
+          dome_(dome),
+          count_(static_cast<std::size_t>(points.width) * static_cast<std::size_t>(points.height)),
+          visibility_(count_),
+          view_factor_(count_, 0.0f) {
         sums_.assign(3 * dome.weights.size(), std::vector<float>(count_, 0.0f));
         open_.assign(3 * dome.weights.size() + 1, Vec3d(0.0));
         if (points.normal.empty()) return;
@@ -195,15 +202,19 @@ class Accumulator {
         const Vec3f& d = dome_.directions[direction];
         const bool is_relief = !nx_.empty();
         if (!any_hidden && (!is_relief || glm::dot(d, axis_) > horizon_sine_)) {
-            // All texels see it, and none from behind: what it adds is one vector for all, and each texel's cosine comes at the end.
+            // All texels see it, and none from behind: what it adds is one vector for all, and each texel's cosine
+            // comes at the end.
             const Vec3d v = is_relief ? Vec3d(d) : Vec3d(1.0, 0.0, 0.0);
             open_.back() += static_cast<double>(dome_.view_factor_weight[direction]) * v;
             for (std::size_t k = 0; k < dome_.weights.size(); ++k) {
-                for (int c = 0; c < 3; ++c) open_[3 * k + static_cast<std::size_t>(c)] += static_cast<double>(dome_.weights[k][direction][c]) * v;
+                for (int c = 0; c < 3; ++c)
+                    open_[3 * k + static_cast<std::size_t>(c)] +=
+                        static_cast<double>(dome_.weights[k][direction][c]) * v;
             }
             return;
         }
-        for (int row = 0; row < points_.height; ++row) expand_row(&visibility_[static_cast<std::size_t>(points_.texel(0, row))], visible[row], points_.width);
+        for (int row = 0; row < points_.height; ++row)
+            expand_row(&visibility_[static_cast<std::size_t>(points_.texel(0, row))], visible[row], points_.width);
         if (is_relief) {
             apply_cosine(visibility_.data(), nx_.data(), ny_.data(), nz_.data(), d.x, d.y, d.z, count_);
         }
@@ -211,7 +222,8 @@ class Accumulator {
         for (std::size_t k = 0; k < dome_.weights.size(); ++k) {
             for (int c = 0; c < 3; ++c) {
                 const float weight = dome_.weights[k][direction][c];
-                if (weight != 0.0f) add_scaled(sums_[3 * k + static_cast<std::size_t>(c)].data(), visibility_.data(), weight, count_);
+                if (weight != 0.0f)
+                    add_scaled(sums_[3 * k + static_cast<std::size_t>(c)].data(), visibility_.data(), weight, count_);
             }
         }
     }
@@ -224,7 +236,8 @@ class Accumulator {
                 const Vec3d n = nx_.empty() ? Vec3d(1.0, 0.0, 0.0) : Vec3d(nx_[i], ny_[i], nz_[i]);
                 for (int c = 0; c < 3; ++c) {
                     const std::size_t channel = 3 * k + static_cast<std::size_t>(c);
-                    light.sky[k][i][c] = static_cast<float>(static_cast<double>(sums_[channel][i]) + glm::dot(n, open_[channel]));
+                    light.sky[k][i][c] =
+                        static_cast<float>(static_cast<double>(sums_[channel][i]) + glm::dot(n, open_[channel]));
                 }
             }
         }
@@ -250,17 +263,20 @@ class Accumulator {
 };
 
 /// Thresholds of successive directions, spread evenly (base 3: the directions' own numbers go by base 2).
-float threshold_of(std::size_t direction) { return static_cast<float>(radical_inverse(3, static_cast<std::uint32_t>(direction))); }
+float threshold_of(std::size_t direction) {
+    return static_cast<float>(radical_inverse(3, static_cast<std::uint32_t>(direction)));
+}
 
 /// What a lattice would have made of the pilot directions.
 struct Trial {
-    double squared_error = 0.0;  // predicted, of the visible share, mean over texels, for all directions
-    double rays = 0.0;           // a direction
+    double squared_error = 0.0;           // predicted, of the visible share, mean over texels, for all directions
+    double rays = 0.0;                    // a direction
     std::vector<std::uint64_t> anchored;  // texels whose errors do not average out
 };
 
-Trial try_lattice(const TilePoints& points, VisibilityGrid& grid, const Lattice& lattice, std::span<const std::vector<std::uint64_t>> pilots,
-                  std::size_t texel_count, std::size_t direction_count) {
+Trial try_lattice(const TilePoints& points, VisibilityGrid& grid, const Lattice& lattice,
+                  std::span<const std::vector<std::uint64_t>> pilots, std::size_t texel_count,
+                  std::size_t direction_count) {
     Trial trial;
     trial.anchored.assign(points.covered.size(), 0);
     const std::size_t count = static_cast<std::size_t>(points.width) * static_cast<std::size_t>(points.height);
@@ -287,7 +303,8 @@ Trial try_lattice(const TilePoints& points, VisibilityGrid& grid, const Lattice&
         for (std::uint64_t left = touched[row]; left; left &= left - 1) {
             const int column = std::countr_zero(left);
             const std::size_t texel = static_cast<std::size_t>(points.texel(column, row));
-            if (std::abs(fill_net[texel]) >= kAnchoredFills || std::abs(net[texel]) > kAnchoredDeviations * std::sqrt(errors[texel])) {
+            if (std::abs(fill_net[texel]) >= kAnchoredFills ||
+                std::abs(net[texel]) > kAnchoredDeviations * std::sqrt(errors[texel])) {
                 trial.anchored[row] |= 1ull << column;
             }
         }
@@ -299,7 +316,9 @@ Trial try_lattice(const TilePoints& points, VisibilityGrid& grid, const Lattice&
     return trial;
 }
 
-std::uint64_t fixed_point(double value) { return static_cast<std::uint64_t>(std::llround(value * 0x1p32)); }
+std::uint64_t fixed_point(double value) {
+    return static_cast<std::uint64_t>(std::llround(value * 0x1p32));
+}
 
 }  // namespace
 
@@ -308,7 +327,8 @@ void TilePoints::extend() {
     std::vector<std::uint16_t> source(x.size());
     std::vector<std::uint64_t> reached = covered;
     for (int row = 0; row < height; ++row) {
-        for (int column = 0; column < width; ++column) source[static_cast<std::size_t>(texel(column, row))] = static_cast<std::uint16_t>(texel(column, row));
+        for (int column = 0; column < width; ++column)
+            source[static_cast<std::size_t>(texel(column, row))] = static_cast<std::uint16_t>(texel(column, row));
     }
     const std::uint64_t all = ~0ull >> (64 - width);
     while (std::any_of(reached.begin(), reached.end(), [&](std::uint64_t bits) { return bits != all; })) {
@@ -316,10 +336,12 @@ void TilePoints::extend() {
         for (int row = 0; row < height; ++row) {
             for (std::uint64_t open = all & ~before[row]; open; open &= open - 1) {
                 const int column = std::countr_zero(open);
-                for (const Vec2i step : {Vec2i(-1, 0), Vec2i(1, 0), Vec2i(0, -1), Vec2i(0, 1), Vec2i(-1, -1), Vec2i(1, -1), Vec2i(-1, 1), Vec2i(1, 1)}) {
+                for (const Vec2i step : {Vec2i(-1, 0), Vec2i(1, 0), Vec2i(0, -1), Vec2i(0, 1), Vec2i(-1, -1),
+                                         Vec2i(1, -1), Vec2i(-1, 1), Vec2i(1, 1)}) {
                     const int c = column + step.x, r = row + step.y;
                     if (c < 0 || r < 0 || c >= width || r >= height || !(before[r] >> c & 1)) continue;
-                    const std::size_t from = source[static_cast<std::size_t>(texel(c, r))], to = static_cast<std::size_t>(texel(column, row));
+                    const std::size_t from = source[static_cast<std::size_t>(texel(c, r))],
+                                      to = static_cast<std::size_t>(texel(column, row));
                     source[to] = static_cast<std::uint16_t>(from);
                     copies.emplace_back(static_cast<std::uint16_t>(to), static_cast<std::uint16_t>(from));
                     x[to] = x[from];
@@ -341,8 +363,8 @@ void SkyTileStatistics::add(const SkyTileStatistics& other) {
     texels += other.texels;
 }
 
-TileLight light_tile(const TilePoints& points, const DomeSamples& dome, DirectionPacket& packet, const SkyTileOptions& options,
-                     SkyTileStatistics& statistics) {
+TileLight light_tile(const TilePoints& points, const DomeSamples& dome, DirectionPacket& packet,
+                     const SkyTileOptions& options, SkyTileStatistics& statistics) {
     SKYBAKE_CHECK_LE(points.width, TilePoints::kMaxTexels);
     SKYBAKE_CHECK_LE(points.height, TilePoints::kMaxTexels);
     FullSampler full(points, packet);
@@ -373,14 +395,16 @@ TileLight light_tile(const TilePoints& points, const DomeSamples& dome, Directio
         trace_full(pilot_index.back());
         for (const std::uint64_t row : visible) visible_pairs += static_cast<std::uint64_t>(std::popcount(row));
         for (const auto& [to, from] : points.copies) {
-            visible[to / points.width] |= (visible[from / points.width] >> (from % points.width) & 1) << (to % points.width);
+            visible[to / points.width] |= (visible[from / points.width] >> (from % points.width) & 1)
+                                          << (to % points.width);
         }
         pilots.push_back(visible);
     }
     const double mean_visibility = static_cast<double>(visible_pairs) / static_cast<double>(kPilots * full.size());
 
     VisibilityGrid grid(points);
-    const double tolerance = static_cast<double>(*options.tolerance) * std::max(mean_visibility, static_cast<double>(kDarkTile));
+    const double tolerance =
+        static_cast<double>(*options.tolerance) * std::max(mean_visibility, static_cast<double>(kDarkTile));
     std::optional<Lattice> chosen;
     double squared_error = 0.0;
     const std::vector<std::uint64_t> nothing(points.covered.size(), 0);
@@ -391,7 +415,8 @@ TileLight light_tile(const TilePoints& points, const DomeSamples& dome, Directio
             grid.force(trial.anchored);
             trial = try_lattice(points, grid, lattice, pilots, full.size(), count);
         }
-        if (trial.rays > 0.8 * static_cast<double>(full.size())) break;  // packets of neighbours are faster than scattered ones
+        if (trial.rays > 0.8 * static_cast<double>(full.size()))
+            break;  // packets of neighbours are faster than scattered ones
         if (trial.squared_error <= tolerance * tolerance) {
             chosen = lattice;
             squared_error = trial.squared_error;

@@ -1,4 +1,5 @@
-// Skylight of one tile of a chart: which texels see which directions, found hierarchically (paper §4.2; docs/architecture.md).
+// Skylight of one tile of a chart: which texels see which directions, found hierarchically (paper §4.2;
+// docs/architecture.md).
 #pragma once
 
 #include <cstdint>
@@ -14,7 +15,8 @@
 
 namespace skybake {
 
-/// Points of up to 49 × 49 texels: three cells of 16 a side, and their far corners. Arrays have width × height entries, row 0 on top.
+/// Points of up to 49 × 49 texels: three cells of 16 a side, and their far corners. Arrays have width × height entries,
+/// row 0 on top.
 struct TilePoints {
     static constexpr int kCell = 16;
     static constexpr int kMaxTexels = 3 * kCell + 1;
@@ -22,10 +24,12 @@ struct TilePoints {
 
     int width = 0;   // a multiple of kCell, plus 1
     int height = 0;  // likewise
-    std::vector<float> x, y, z;             // lifted off the surface, local metres; texels that are not covered repeat the nearest covered one
-    std::vector<std::uint64_t> covered;     // [row]: bit c set where texel c belongs to the surface
-    std::vector<std::uint64_t> is_feature;  // [row]: texels near a place where other geometry touches the chart: always traced
-    std::vector<Vec3f> normal;              // relief charts only, one a texel; else empty
+    std::vector<float> x, y,
+        z;  // lifted off the surface, local metres; texels that are not covered repeat the nearest covered one
+    std::vector<std::uint64_t> covered;  // [row]: bit c set where texel c belongs to the surface
+    std::vector<std::uint64_t>
+        is_feature;             // [row]: texels near a place where other geometry touches the chart: always traced
+    std::vector<Vec3f> normal;  // relief charts only, one a texel; else empty
 
     int texel(int column, int row) const { return row * width + column; }
 
@@ -42,8 +46,8 @@ struct TileLight {
 };
 
 struct SkyTileOptions {
-    /// Root-mean-square error, relative to the tile's light, that the hierarchy may add to the same directions traced in full;
-    /// none: every texel traces every direction.
+    /// Root-mean-square error, relative to the tile's light, that the hierarchy may add to the same directions traced
+    /// in full; none: every texel traces every direction.
     std::optional<float> tolerance = 0.01f;
 };
 
@@ -51,7 +55,8 @@ struct SkyTileOptions {
 struct SkyTileStatistics {
     std::uint64_t rays = 0;
     std::uint64_t pairs = 0;  // (texel, direction): what full sampling would trace
-    /// Predicted squared error of the sky view factor against full sampling, and the factor itself, summed over texels in units of 2⁻³².
+    /// Predicted squared error of the sky view factor against full sampling, and the factor itself, summed over texels
+    /// in units of 2⁻³².
     std::uint64_t squared_error_sum = 0;
     std::uint64_t view_factor_sum = 0;
     std::uint64_t texels = 0;
@@ -61,12 +66,12 @@ struct SkyTileStatistics {
 
 /// The irradiance of every covered texel from the directions of `dome`.
 ///
-/// Full sampling traces each direction from every covered texel. The hierarchy traces, for each direction, the nodes of a lattice, and
-/// halves those cells whose nodes, or whose traced neighbours, do not agree: visibility is 0 or 1, so a shadow's edge costs its length and
-/// the area beside it nothing. A few pilot directions are traced in full first. They tell (i) which of several lattices keeps the tolerance
-/// in this tile at the fewest rays, and (ii) at which texels the error does not average out over the directions (features
-/// thinner than a cell): these are traced always.
-TileLight light_tile(const TilePoints& points, const DomeSamples& dome, DirectionPacket& packet, const SkyTileOptions& options,
-                     SkyTileStatistics& statistics);
+/// Full sampling traces each direction from every covered texel. The hierarchy traces, for each direction, the nodes of
+/// a lattice, and halves those cells whose nodes, or whose traced neighbours, do not agree: visibility is 0 or 1, so a
+/// shadow's edge costs its length and the area beside it nothing. A few pilot directions are traced in full first. They
+/// tell (i) which of several lattices keeps the tolerance in this tile at the fewest rays, and (ii) at which texels the
+/// error does not average out over the directions (features thinner than a cell): these are traced always.
+TileLight light_tile(const TilePoints& points, const DomeSamples& dome, DirectionPacket& packet,
+                     const SkyTileOptions& options, SkyTileStatistics& statistics);
 
 }  // namespace skybake

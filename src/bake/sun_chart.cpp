@@ -53,8 +53,15 @@ class Batch {
 
 class SunOnChart {
   public:
-    SunOnChart(const Scene& scene, const Chart& chart, const ChartSamples& samples, const RayScene& rays, const SunBeam& sun)
-        : scene_(scene), chart_(chart), samples_(samples), rays_(rays), sun_(sun), count_(samples.position.size()), cosine_(count_, 0.0f) {
+    SunOnChart(const Scene& scene, const Chart& chart, const ChartSamples& samples, const RayScene& rays,
+               const SunBeam& sun)
+        : scene_(scene),
+          chart_(chart),
+          samples_(samples),
+          rays_(rays),
+          sun_(sun),
+          count_(samples.position.size()),
+          cosine_(count_, 0.0f) {
         for (std::size_t i = 0; i < count_; ++i) {
             if (samples.cover[i] == ChartSamples::Cover::none) continue;
             cosine_[i] = std::max(0.0f, glm::dot(normal_at(i), sun.direction));
@@ -85,11 +92,13 @@ class SunOnChart {
     void for_rows(const Body& body) const {
         // Isolated: a thread that waits here must not begin another chart, whose time would be counted as the sun's.
         tbb::this_task_arena::isolate([&] {
-            tbb::parallel_for(0, samples_.size.y, kRowsPerTask, [&](int row) { body(row, std::min(row + kRowsPerTask, samples_.size.y)); });
+            tbb::parallel_for(0, samples_.size.y, kRowsPerTask,
+                              [&](int row) { body(row, std::min(row + kRowsPerTask, samples_.size.y)); });
         });
     }
 
-    void trace_coarse(const std::vector<Vec3f>& directions, int row_begin, int row_end, std::vector<std::uint8_t>& free) {
+    void trace_coarse(const std::vector<Vec3f>& directions, int row_begin, int row_end,
+                      std::vector<std::uint8_t>& free) {
         DirectionPacket packet(rays_);
         Batch batch(packet, [&](std::size_t i) { ++free[i]; });
         for (const Vec3f& direction : directions) {
@@ -123,7 +132,9 @@ class SunOnChart {
                 const std::size_t j = samples_.index(x, y);
                 if (samples_.cover[j] == ChartSamples::Cover::none) continue;
                 const std::uint32_t t = samples_.triangle[j];
-                if (std::find(seen.begin(), seen.begin() + static_cast<std::ptrdiff_t>(count), t) != seen.begin() + static_cast<std::ptrdiff_t>(count)) continue;
+                if (std::find(seen.begin(), seen.begin() + static_cast<std::ptrdiff_t>(count), t) !=
+                    seen.begin() + static_cast<std::ptrdiff_t>(count))
+                    continue;
                 seen[count++] = t;
                 if (contains(samples_, chart_, t, point)) return true;
             }
@@ -131,8 +142,8 @@ class SunOnChart {
         return false;
     }
 
-    void refine(const std::vector<Vec3f>& directions, const std::vector<std::uint8_t>& free, std::uint8_t all, int row_begin, int row_end,
-                std::vector<float>& share) {
+    void refine(const std::vector<Vec3f>& directions, const std::vector<std::uint8_t>& free, std::uint8_t all,
+                int row_begin, int row_end, std::vector<float>& share) {
         DirectionPacket packet(rays_);
         std::vector<std::uint32_t> hits(samples_.index(0, row_end) - samples_.index(0, row_begin), 0);
         std::vector<std::uint32_t> tried(hits.size(), 0);
@@ -156,7 +167,8 @@ class SunOnChart {
                                (static_cast<float>(sub / kSubdivision) + 0.5f) / kSubdivision - 0.5f);
             for (const auto& [column, row] : edges) {
                 const std::size_t i = samples_.index(column, row);
-                const Vec2f point(static_cast<float>(column) + 0.5f + offset.x, static_cast<float>(row) + 0.5f + offset.y);
+                const Vec2f point(static_cast<float>(column) + 0.5f + offset.x,
+                                  static_cast<float>(row) + 0.5f + offset.y);
                 if (samples_.cover[i] != ChartSamples::Cover::whole && !is_on_surface(column, row, point)) continue;
                 ++tried[i - first];
                 batch.add(surface_point(i, point), i);
@@ -166,7 +178,8 @@ class SunOnChart {
         for (const auto& [column, row] : edges) {
             const std::size_t i = samples_.index(column, row);
             // A texel of which no point lies inside keeps the answer of its own point.
-            if (tried[i - first] > 0) share[i] = static_cast<float>(hits[i - first]) / static_cast<float>(tried[i - first]);
+            if (tried[i - first] > 0)
+                share[i] = static_cast<float>(hits[i - first]) / static_cast<float>(tried[i - first]);
         }
         ray_count_ += batch.traced;
     }
@@ -192,8 +205,8 @@ class SunOnChart {
 
 }  // namespace
 
-std::vector<float> light_sun(const Scene& scene, const Chart& chart, const ChartSamples& samples, const RayScene& rays, const SunBeam& sun,
-                             std::uint64_t& ray_count) {
+std::vector<float> light_sun(const Scene& scene, const Chart& chart, const ChartSamples& samples, const RayScene& rays,
+                             const SunBeam& sun, std::uint64_t& ray_count) {
     return SunOnChart(scene, chart, samples, rays, sun).light(ray_count);
 }
 

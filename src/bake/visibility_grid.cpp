@@ -12,7 +12,9 @@ namespace {
 constexpr std::array<int, 5> kCells{16, 8, 4, 2, 1};
 
 /// The bits of columns [begin, end], end ≤ 63.
-constexpr std::uint64_t columns(int begin, int end) { return (~0ull >> (63 - (end - begin))) << begin; }
+constexpr std::uint64_t columns(int begin, int end) {
+    return (~0ull >> (63 - (end - begin))) << begin;
+}
 
 /// [corner bits (x, y): 00, 10, 01, 11][row]: which texels of a cell lie above the threshold.
 using EdgeMasks = std::array<std::array<std::uint8_t, 5>, 16>;
@@ -24,9 +26,12 @@ EdgeMasks make_edge_masks(int cell, float threshold) {
         const auto corner = [&](int k) { return static_cast<float>(corners >> k & 1); };
         for (int y = 0; y <= cell; ++y) {
             for (int x = 0; x <= cell; ++x) {
-                const float s = static_cast<float>(x) / static_cast<float>(cell), t = static_cast<float>(y) / static_cast<float>(cell);
-                const float value = (1 - t) * ((1 - s) * corner(0) + s * corner(1)) + t * ((1 - s) * corner(2) + s * corner(3));
-                if (value > threshold) masks[corners][static_cast<std::size_t>(y)] |= static_cast<std::uint8_t>(1u << x);
+                const float s = static_cast<float>(x) / static_cast<float>(cell),
+                            t = static_cast<float>(y) / static_cast<float>(cell);
+                const float value =
+                    (1 - t) * ((1 - s) * corner(0) + s * corner(1)) + t * ((1 - s) * corner(2) + s * corner(3));
+                if (value > threshold)
+                    masks[corners][static_cast<std::size_t>(y)] |= static_cast<std::uint8_t>(1u << x);
             }
         }
     }
@@ -38,11 +43,13 @@ const EdgeMasks& edge_masks(int cell, float threshold) {
     static const auto tables = [] {
         std::array<std::array<EdgeMasks, kThresholds>, 2> all;
         for (int size = 0; size < 2; ++size) {
-            for (int k = 0; k < kThresholds; ++k) all[size][k] = make_edge_masks(2 << size, (static_cast<float>(k) + 0.5f) / kThresholds);
+            for (int k = 0; k < kThresholds; ++k)
+                all[size][k] = make_edge_masks(2 << size, (static_cast<float>(k) + 0.5f) / kThresholds);
         }
         return all;
     }();
-    return tables[cell == 2 ? 0 : 1][static_cast<std::size_t>(std::clamp(static_cast<int>(threshold * kThresholds), 0, kThresholds - 1))];
+    return tables[cell == 2 ? 0 : 1]
+                 [static_cast<std::size_t>(std::clamp(static_cast<int>(threshold * kThresholds), 0, kThresholds - 1))];
 }
 
 }  // namespace
@@ -71,7 +78,8 @@ void VisibilityGrid::force(std::span<const std::uint64_t> texels) {
         if (cell == 1) continue;  // nothing is left to halve
         for (int y = 0; y + cell < points_.height; y += cell) {
             std::uint64_t any = 0;
-            for (int row = y; row <= y + cell; ++row) any |= (texels[row] | points_.is_feature[row]) & points_.covered[row];
+            for (int row = y; row <= y + cell; ++row)
+                any |= (texels[row] | points_.is_feature[row]) & points_.covered[row];
             if (!any) continue;
             for (int x = 0; x + cell < points_.width; x += cell) {
                 if (any & columns(x, x + cell)) forced_[level][y] |= 1ull << x;
@@ -89,7 +97,8 @@ void VisibilityGrid::find_mixed(int cell, std::span<const std::uint64_t> visible
     const int level = level_of(cell);
     for (int y = 0; y + cell < points_.height; y += cell) {
         const std::uint64_t low = visible[y], high = visible[y + cell];
-        mixed[y] = (((low ^ (low >> cell)) | (low ^ high) | (low ^ (high >> cell))) & in_use_[level][y]) | forced_[level][y];
+        mixed[y] =
+            (((low ^ (low >> cell)) | (low ^ high) | (low ^ (high >> cell))) & in_use_[level][y]) | forced_[level][y];
     }
 }
 
@@ -98,13 +107,16 @@ void VisibilityGrid::interpolate(int cell, float threshold, const Rows& mixed, s
     for (int y0 = 0; y0 + cell < points_.height; y0 += cell) {
         for (std::uint64_t left = mixed[y0]; left; left &= left - 1) {
             const int x0 = std::countr_zero(left);
-            const std::size_t corners = (visible[y0] >> x0 & 1) | (visible[y0] >> (x0 + cell) & 1) << 1 | (visible[y0 + cell] >> x0 & 1) << 2 |
+            const std::size_t corners = (visible[y0] >> x0 & 1) | (visible[y0] >> (x0 + cell) & 1) << 1 |
+                                        (visible[y0 + cell] >> x0 & 1) << 2 |
                                         (visible[y0 + cell] >> (x0 + cell) & 1) << 3;
             const std::uint64_t cell_columns = columns(x0, x0 + cell);
             for (int row = 0; row <= cell; ++row) {
                 const std::uint64_t open = cell_columns & ~known_[y0 + row];
                 interpolated_[y0 + row] |= open;
-                visible[y0 + row] = (visible[y0 + row] & ~open) | (static_cast<std::uint64_t>(masks[corners][static_cast<std::size_t>(row)]) << x0 & open);
+                visible[y0 + row] =
+                    (visible[y0 + row] & ~open) |
+                    (static_cast<std::uint64_t>(masks[corners][static_cast<std::size_t>(row)]) << x0 & open);
             }
         }
     }
@@ -122,7 +134,8 @@ void VisibilityGrid::fill_next_level(int cell, std::span<std::uint64_t> visible)
     }
 }
 
-std::size_t VisibilityGrid::solve(const Lattice& lattice, float threshold, VisibilitySource& source, std::span<std::uint64_t> visible) {
+std::size_t VisibilityGrid::solve(const Lattice& lattice, float threshold, VisibilitySource& source,
+                                  std::span<std::uint64_t> visible) {
     std::fill(visible.begin(), visible.end(), 0);
     known_.fill(0);
     wanted_.fill(0);

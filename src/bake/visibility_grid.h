@@ -13,33 +13,37 @@ namespace skybake {
 /// How coarsely a direction is looked at.
 struct Lattice {
     int first_cell = 16;  // texels between the nodes that are always traced: 16, 8 or 4
-    int last_cell = 1;    // mixed cells of this size are interpolated between their corners instead of being halved again: 1, 2 or 4
+    int last_cell =
+        1;  // mixed cells of this size are interpolated between their corners instead of being halved again: 1, 2 or 4
 };
 
 /// Where a visibility comes from: rays, or the stored answer of a pilot direction.
 class VisibilitySource {
   public:
     virtual ~VisibilitySource() = default;
-    /// For each set bit of wanted[row], sets that bit of visible[row] when the texel sees the sky and clears it otherwise. Returns how many
-    /// bits there were.
+    /// For each set bit of wanted[row], sets that bit of visible[row] when the texel sees the sky and clears it
+    /// otherwise. Returns how many bits there were.
     virtual std::size_t look(std::span<const std::uint64_t> wanted, std::span<std::uint64_t> visible) = 0;
 };
 
-/// The lattice of a tile, made once, and the solution for one direction after another. All texels of a row are one machine word, so that a
-/// level of the hierarchy costs a few operations a row, whatever lies in it.
+/// The lattice of a tile, made once, and the solution for one direction after another. All texels of a row are one
+/// machine word, so that a level of the hierarchy costs a few operations a row, whatever lies in it.
 class VisibilityGrid {
   public:
     explicit VisibilityGrid(const TilePoints& points);
 
-    /// Sets, beside the tile's features, the texels that every direction must trace: all cells that hold one are halved down to it.
+    /// Sets, beside the tile's features, the texels that every direction must trace: all cells that hold one are halved
+    /// down to it.
     void force(std::span<const std::uint64_t> texels);
 
-    /// Finds the visibility of all covered texels, a bit each. A cell is mixed when its corners differ; its unknown corners, the middles of
-    /// its sides and its centre are looked at, which may make its neighbours mixed, until nothing changes; then cells are halved. What lies in
-    /// cells that are not mixed is taken to be as their corners. A texel of a mixed last cell is visible when the corners' visibility,
-    /// interpolated, is above `threshold`: over directions with thresholds spread evenly over [0, 1] it gets the interpolated share.
-    /// Returns how many texels were looked at.
-    std::size_t solve(const Lattice& lattice, float threshold, VisibilitySource& source, std::span<std::uint64_t> visible);
+    /// Finds the visibility of all covered texels, a bit each. A cell is mixed when its corners differ; its unknown
+    /// corners, the middles of its sides and its centre are looked at, which may make its neighbours mixed, until
+    /// nothing changes; then cells are halved. What lies in cells that are not mixed is taken to be as their corners. A
+    /// texel of a mixed last cell is visible when the corners' visibility, interpolated, is above `threshold`: over
+    /// directions with thresholds spread evenly over [0, 1] it gets the interpolated share. Returns how many texels
+    /// were looked at.
+    std::size_t solve(const Lattice& lattice, float threshold, VisibilitySource& source,
+                      std::span<std::uint64_t> visible);
 
     /// [row]: the texels that the last solution interpolated.
     std::span<const std::uint64_t> interpolated() const { return interpolated_; }

@@ -1,4 +1,5 @@
-// Our own broken contracts: print both sides and stop with exit code 3. Bad input is never checked like this (base/error.h).
+// Our own broken contracts: print both sides and stop with exit code 3. Bad input is never checked like this
+// (base/error.h).
 #pragma once
 
 #include <fmt/format.h>
@@ -9,8 +10,10 @@
 namespace skybake {
 
 [[noreturn]] inline void fail_check(const char* file, int line, const char* expression, const std::string& sides) {
-    fmt::print(stderr, "skybake: internal error at {}:{}: {} {}\nThis is a bug of skybake; please report it with the command line.\n",
-               file, line, expression, sides);
+    fmt::print(
+        stderr,
+        "skybake: internal error at {}:{}: {} {}\nThis is a bug of skybake; please report it with the command line.\n",
+        file, line, expression, sides);
     std::_Exit(3);
 }
 
@@ -19,7 +22,8 @@ namespace skybake {
 #define SKYBAKE_CHECK(condition) \
     ((condition) ? void(0) : ::skybake::fail_check(__FILE__, __LINE__, #condition, "is false"))
 #define SKYBAKE_CHECK_OP_(a, op, b) \
-    (((a)op(b)) ? void(0) : ::skybake::fail_check(__FILE__, __LINE__, #a " " #op " " #b, fmt::format("with {} and {}", a, b)))
+    (((a)op(b)) ? void(0)           \
+                : ::skybake::fail_check(__FILE__, __LINE__, #a " " #op " " #b, fmt::format("with {} and {}", a, b)))
 #define SKYBAKE_CHECK_EQ(a, b) SKYBAKE_CHECK_OP_(a, ==, b)
 #define SKYBAKE_CHECK_LT(a, b) SKYBAKE_CHECK_OP_(a, <, b)
 #define SKYBAKE_CHECK_LE(a, b) SKYBAKE_CHECK_OP_(a, <=, b)

@@ -1,5 +1,5 @@
-// Input that is unusable as a whole: no such file, broken JSON, a bad option. Thrown by the readers and the command line only;
-// what is wrong with a part of the input is a Finding (base/finding.h).
+// Input that is unusable as a whole: no such file, broken JSON, a bad option. Thrown by the readers and the command
+// line only; what is wrong with a part of the input is a Finding (base/finding.h).
 #pragma once
 
 #include <stdexcept>

@@ -6,9 +6,12 @@ namespace skybake {
 
 const char* name_of(Severity severity) {
     switch (severity) {
-        case Severity::info: return "info";
-        case Severity::warning: return "warning";
-        case Severity::error: return "error";
+        case Severity::info:
+            return "info";
+        case Severity::warning:
+            return "warning";
+        case Severity::error:
+            return "error";
     }
     return "error";
 }
@@ -56,7 +59,8 @@ std::uint64_t FindingLog::count(Severity severity) const {
 std::string to_text(const Finding& finding) {
     const std::string number = finding.count > 1 ? fmt::format(" ({} of these)", finding.count) : "";
     const std::string remedy = finding.remedy.empty() ? "" : " " + finding.remedy;
-    return fmt::format("{} {}{}: {}: {}{}", finding.code, name_of(finding.severity), number, finding.where, finding.what, remedy);
+    return fmt::format("{} {}{}: {}: {}{}", finding.code, name_of(finding.severity), number, finding.where,
+                       finding.what, remedy);
 }
 
 }  // namespace skybake

@@ -1,4 +1,5 @@
-// What is wrong with a part of the input: that part is repaired or left out, the rest goes on, and the report lists all.
+// What is wrong with a part of the input: that part is repaired or left out, the rest goes on, and the report lists
+// all.
 #pragma once
 
 #include <cstdint>
@@ -23,8 +24,8 @@ struct Finding {
     std::uint64_t count = 1;
 };
 
-/// Collects findings: the first few of each code whole, of all others the number, so that a city with a million faults stays readable.
-/// Not thread-safe: one log a task, merged in a fixed order.
+/// Collects findings: the first few of each code whole, of all others the number, so that a city with a million faults
+/// stays readable. Not thread-safe: one log a task, merged in a fixed order.
 class FindingLog {
   public:
     static constexpr std::size_t kKeptPerCode = 20;
@@ -32,8 +33,9 @@ class FindingLog {
     void add(Finding finding);
     void merge(const FindingLog& other);
 
-    /// One entry for each kept finding, in order of code and then of arrival. The first entry of a code carries, in `count`, how
-    /// many more there were of that code than are listed, plus itself; so the counts of a code add up to their number.
+    /// One entry for each kept finding, in order of code and then of arrival. The first entry of a code carries, in
+    /// `count`, how many more there were of that code than are listed, plus itself; so the counts of a code add up to
+    /// their number.
     std::vector<Finding> list() const;
     /// How many findings there are of the code.
     std::uint64_t count(const std::string& code) const;

@@ -1,4 +1,5 @@
-// Random numbers without state: a hash of (seed, stable id, sample, dimension), so that no result hangs on thread or order.
+// Random numbers without state: a hash of (seed, stable id, sample, dimension), so that no result hangs on thread or
+// order.
 #pragma once
 
 #include <cstdint>
@@ -6,8 +7,8 @@
 
 namespace skybake {
 
-/// Mixes 64 bits so that each output bit depends on each input bit. Based on: Steele, Lea & Flood, "Fast splittable pseudorandom
-/// number generators", 2014 (the SplitMix64 finaliser with the constants of Stafford's variant 13).
+/// Mixes 64 bits so that each output bit depends on each input bit. Based on: Steele, Lea & Flood, "Fast splittable
+/// pseudorandom number generators", 2014 (the SplitMix64 finaliser with the constants of Stafford's variant 13).
 constexpr std::uint64_t mix64(std::uint64_t x) {
     x ^= x >> 30;
     x *= 0xbf58476d1ce4e5b9ULL;
@@ -16,7 +17,9 @@ constexpr std::uint64_t mix64(std::uint64_t x) {
     return x ^ (x >> 31);
 }
 
-constexpr std::uint64_t hash_combine(std::uint64_t a, std::uint64_t b) { return mix64(a + 0x9e3779b97f4a7c15ULL + mix64(b)); }
+constexpr std::uint64_t hash_combine(std::uint64_t a, std::uint64_t b) {
+    return mix64(a + 0x9e3779b97f4a7c15ULL + mix64(b));
+}
 
 /// FNV-1a of the bytes, mixed: the stable id of an object from its name.
 constexpr std::uint64_t hash_of(std::string_view text) {

@@ -15,7 +15,11 @@ using Vec2i = glm::ivec2;
 
 inline constexpr double kPi = 3.14159265358979323846;
 
-constexpr double radians_from_degrees(double degrees) { return degrees * (kPi / 180.0); }
-constexpr double degrees_from_radians(double radians) { return radians * (180.0 / kPi); }
+constexpr double radians_from_degrees(double degrees) {
+    return degrees * (kPi / 180.0);
+}
+constexpr double degrees_from_radians(double radians) {
+    return radians * (180.0 / kPi);
+}
 
 }  // namespace skybake

@@ -10,8 +10,9 @@
 
 namespace skybake {
 
-std::vector<PointLight> light_points(std::span<const ReceiverPoint> points, const DomeSampler& sampler, std::size_t instant, const SunBeam& sun,
-                                     const RayScene& rays, const PointLightOptions& options) {
+std::vector<PointLight> light_points(std::span<const ReceiverPoint> points, const DomeSampler& sampler,
+                                     std::size_t instant, const SunBeam& sun, const RayScene& rays,
+                                     const PointLightOptions& options) {
     // Points of one normal share their directions and their packets, as the texels of a chart do.
     const auto less = [](const Vec3f& a, const Vec3f& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); };
     std::map<Vec3f, std::vector<std::size_t>, decltype(less)> by_normal(less);
@@ -20,7 +21,8 @@ std::vector<PointLight> light_points(std::span<const ReceiverPoint> points, cons
     for (const auto& group : by_normal) groups.push_back(&group);
 
     const bool has_sun = sun.shape != SunShape::none && luminance(sun.normal_illuminance) > 0.0f;
-    const std::vector<Vec3f> sun_directions = sun_disc_directions(sun, sun.shape == SunShape::disc ? options.disc_samples : 1);
+    const std::vector<Vec3f> sun_directions =
+        sun_disc_directions(sun, sun.shape == SunShape::disc ? options.disc_samples : 1);
     std::vector<PointLight> light(points.size());
     tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
         const auto& [normal, members] = *groups[g];
@@ -52,10 +54,12 @@ std::vector<PointLight> light_points(std::span<const ReceiverPoint> points, cons
                 packet.set_direction(direction);
                 const std::uint32_t blocked = packet.occluded(x, y, z, count);
                 for (std::size_t i = begin; i < end; ++i) {
-                    if (!(blocked >> (i - begin) & 1u)) light[members[i]].sun_visible += 1.0f / static_cast<float>(sun_directions.size());
+                    if (!(blocked >> (i - begin) & 1u))
+                        light[members[i]].sun_visible += 1.0f / static_cast<float>(sun_directions.size());
                 }
             }
-            for (std::size_t i = begin; i < end; ++i) light[members[i]].sun = light[members[i]].sun_visible * cosine * sun.normal_illuminance;
+            for (std::size_t i = begin; i < end; ++i)
+                light[members[i]].sun = light[members[i]].sun_visible * cosine * sun.normal_illuminance;
         });
     });
     return light;

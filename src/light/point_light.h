@@ -23,7 +23,8 @@ struct ReceiverPoint {
 struct PointLight {
     Rgb sun{0.0f};
     Rgb sky{0.0f};
-    float sun_visible = 0.0f;      // share of the sun that is not hidden, 0…1; 0 when the sun is behind the surface or below the horizon
+    float sun_visible =
+        0.0f;  // share of the sun that is not hidden, 0…1; 0 when the sun is behind the surface or below the horizon
     float sky_view_factor = 0.0f;  // cosine-weighted visible share of the sky: 1 on open ground, 0.5 on a free wall
 };
 
@@ -32,9 +33,10 @@ struct PointLightOptions {
     int disc_samples = 64;  // directions to the sun's disc under SunShape::disc
 };
 
-/// Light at each point from one instant (index `instant` of the sampler's). Points are lifted off their surface along their normal. Parallel over
-/// points; the same bits for any number of threads.
-std::vector<PointLight> light_points(std::span<const ReceiverPoint> points, const DomeSampler& sampler, std::size_t instant, const SunBeam& sun,
-                                     const RayScene& rays, const PointLightOptions& options);
+/// Light at each point from one instant (index `instant` of the sampler's). Points are lifted off their surface along
+/// their normal. Parallel over points; the same bits for any number of threads.
+std::vector<PointLight> light_points(std::span<const ReceiverPoint> points, const DomeSampler& sampler,
+                                     std::size_t instant, const SunBeam& sun, const RayScene& rays,
+                                     const PointLightOptions& options);
 
 }  // namespace skybake

@@ -30,7 +30,8 @@ Corner cut_edge(const Corner& a, const Corner& b, int axis, float value) {
 }
 
 /// Cuts a convex polygon at coordinate[axis] = value.
-void cut_polygon(const std::vector<Corner>& polygon, int axis, float value, std::vector<Corner>& below, std::vector<Corner>& above) {
+void cut_polygon(const std::vector<Corner>& polygon, int axis, float value, std::vector<Corner>& below,
+                 std::vector<Corner>& above) {
     below.clear();
     above.clear();
     for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -38,7 +39,8 @@ void cut_polygon(const std::vector<Corner>& polygon, int axis, float value, std:
         const Corner& b = polygon[(i + 1) % polygon.size()];
         if (a.position[axis] <= value) below.push_back(a);
         if (a.position[axis] >= value) above.push_back(a);
-        if ((a.position[axis] < value && b.position[axis] > value) || (a.position[axis] > value && b.position[axis] < value)) {
+        if ((a.position[axis] < value && b.position[axis] > value) ||
+            (a.position[axis] > value && b.position[axis] < value)) {
             const Corner cut = cut_edge(a, b, axis, value);
             below.push_back(cut);
             above.push_back(cut);
@@ -46,7 +48,8 @@ void cut_polygon(const std::vector<Corner>& polygon, int axis, float value, std:
     }
 }
 
-/// Cuts a triangle at all multiples of `step` along x, y and z that its box crosses; appends the pieces' corners three by three.
+/// Cuts a triangle at all multiples of `step` along x, y and z that its box crosses; appends the pieces' corners three
+/// by three.
 void cut_triangle(const std::array<Corner, 3>& triangle, float step, std::vector<std::array<Corner, 3>>& out) {
     std::vector<std::vector<Corner>> pieces{{triangle.begin(), triangle.end()}};
     std::vector<Corner> below, above;
@@ -88,7 +91,8 @@ class MaterialTable {
         } else {
             material = {name_of(surface.type), albedo_of(surface.type), std::nullopt, TextureWrap::repeat};
         }
-        const Key key{material.name, material.texture ? material.texture->value + 1 : 0, material.albedo.x, material.albedo.y, material.albedo.z};
+        const Key key{material.name, material.texture ? material.texture->value + 1 : 0, material.albedo.x,
+                      material.albedo.y, material.albedo.z};
         const auto [entry, is_new] = index_.try_emplace(key, MaterialId(materials.size()));
         if (is_new) materials.push_back(std::move(material));
         return entry->second;
@@ -111,7 +115,8 @@ class MaterialTable {
     std::map<Key, MaterialId> index_;
 };
 
-std::string topmost_parent(const CityModel& city, const std::unordered_map<std::string_view, std::size_t>& by_id, std::size_t object) {
+std::string topmost_parent(const CityModel& city, const std::unordered_map<std::string_view, std::size_t>& by_id,
+                           std::size_t object) {
     // At most as many steps as there are objects: parents of strangers may go in circles.
     for (std::size_t step = 0; step < city.objects.size(); ++step) {
         const auto parent = by_id.find(city.objects[object].parent_id);
@@ -152,11 +157,17 @@ Scene build_scene(const CityModel& city, const SceneOptions& options, FindingLog
             if (surface.type == SurfaceType::closure) continue;  // an opening: light passes
             const auto corner_triples = triangulate(geometry, surface);
             if (corner_triples.empty()) {
-                findings.add({"SB212", Severity::warning, fmt::format("{} surface {}", object.where, surface.source_index),
+                findings.add({"SB212", Severity::warning,
+                              fmt::format("{} surface {}", object.where, surface.source_index),
                               "polygon cannot be triangulated; left out.", "Repair the polygon."});
                 continue;
             }
-            Face face{object_index, surface.type, materials.of(surface), static_cast<std::uint32_t>(scene.triangles.size()), 0, surface.source_index};
+            Face face{object_index,
+                      surface.type,
+                      materials.of(surface),
+                      static_cast<std::uint32_t>(scene.triangles.size()),
+                      0,
+                      surface.source_index};
             for (const auto& triple : corner_triples) {
                 std::array<Corner, 3> triangle;
                 for (int k = 0; k < 3; ++k) {
@@ -166,7 +177,8 @@ Scene build_scene(const CityModel& city, const SceneOptions& options, FindingLog
                 pieces.clear();
                 cut_triangle(triangle, options.max_piece_m, pieces);
                 for (const std::array<Corner, 3>& piece : pieces) {
-                    const Vec3f cross = glm::cross(piece[1].position - piece[0].position, piece[2].position - piece[0].position);
+                    const Vec3f cross =
+                        glm::cross(piece[1].position - piece[0].position, piece[2].position - piece[0].position);
                     if (!(glm::dot(cross, cross) > 0.0f)) continue;  // no area left in float
                     scene.triangles.push_back({piece[0].position, piece[1].position, piece[2].position});
                     scene.triangle_uvs.push_back({piece[0].uv, piece[1].uv, piece[2].uv});

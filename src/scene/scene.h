@@ -41,7 +41,7 @@ struct SceneObject {
 };
 
 struct Scene {
-    Vec3d origin{0.0};  // map coordinates of the local frame's (0, 0, 0)
+    Vec3d origin{0.0};                 // map coordinates of the local frame's (0, 0, 0)
     std::vector<SceneObject> objects;  // sorted by id
     std::vector<Face> faces;           // sorted by object and source index
     std::vector<SceneMaterial> materials;
@@ -63,8 +63,8 @@ struct SceneOptions {
 /// Believable linear albedo of a surface that states none. Source: the table in docs/physics.md.
 Rgb default_albedo(SurfaceType type);
 
-/// Triangulates and moves the repaired city into the local frame. Objects are sorted by id, so their order in the file does not matter.
-/// Polygons that cannot be triangulated are left out with finding SB212.
+/// Triangulates and moves the repaired city into the local frame. Objects are sorted by id, so their order in the file
+/// does not matter. Polygons that cannot be triangulated are left out with finding SB212.
 Scene build_scene(const CityModel& city, const SceneOptions& options, class FindingLog& findings);
 
 }  // namespace skybake

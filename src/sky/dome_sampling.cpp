@@ -87,7 +87,8 @@ DomeSamples DomeSampler::sample_about(const Vec3f& normal, float sine_below, boo
         for (int a = 0; a < kAzimuths; ++a) {
             const int cell = h * kAzimuths + a;
             const float cosine = glm::dot(normal, cell_direction_[cell]) + sine_below;
-            if (cosine > -kHalfCell) sum += static_cast<double>(cell_density_[cell] * std::max(cosine, 0.25f * kHalfCell));
+            if (cosine > -kHalfCell)
+                sum += static_cast<double>(cell_density_[cell] * std::max(cosine, 0.25f * kHalfCell));
             row_sum[cell] = sum;
         }
         total += sum;
@@ -107,7 +108,8 @@ DomeSamples DomeSampler::sample_about(const Vec3f& normal, float sine_below, boo
         const double up = std::clamp((target - (row_end[h] - row_mass)) / row_mass, 0.0, 1.0);
         const double turns = i * kGoldenRatio;
         const double wanted = (turns - std::floor(turns)) * row_mass;
-        const int column = static_cast<int>(std::min<std::ptrdiff_t>(std::upper_bound(row, row + kAzimuths, wanted) - row, kAzimuths - 1));
+        const int column = static_cast<int>(
+            std::min<std::ptrdiff_t>(std::upper_bound(row, row + kAzimuths, wanted) - row, kAzimuths - 1));
         const double before = column == 0 ? 0.0 : row[column - 1];
         const double cell_mass = row[column] - before;
         if (cell_mass <= 0.0) continue;

@@ -16,7 +16,7 @@ namespace skybake {
 ///   relief charts:  E_k = Σ_j weight[k][j] V_j max(0, normal · direction_j)   (each texel has its own normal)
 /// and the sky view factor likewise with view_factor_weight.
 struct DomeSamples {
-    std::vector<Vec3f> directions;          // unit, above the horizon, from low to high; any run of them covers all azimuths
+    std::vector<Vec3f> directions;  // unit, above the horizon, from low to high; any run of them covers all azimuths
     std::vector<std::vector<Rgb>> weights;  // [instant][direction], lx per channel
     std::vector<float> view_factor_weight;  // [direction]
 

@@ -8,8 +8,8 @@
 
 namespace skybake {
 
-/// `count` unit directions evenly over the solid angle of the disc (a spiral by area, angles by van der Corput's sequence); the centre
-/// alone for count 1.
+/// `count` unit directions evenly over the solid angle of the disc (a spiral by area, angles by van der Corput's
+/// sequence); the centre alone for count 1.
 std::vector<Vec3f> sun_disc_directions(const SunBeam& sun, int count);
 
 }  // namespace skybake

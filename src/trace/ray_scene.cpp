@@ -62,8 +62,8 @@ RayScene::RayScene(const Scene& scene) : embree_(std::make_unique<Embree>()) {
         const std::size_t count = scene.triangles.size();
         auto* vertices = static_cast<Vec3f*>(
             rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3f), 3 * count));
-        auto* indices = static_cast<std::uint32_t*>(
-            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), count));
+        auto* indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
+            geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), count));
         if (!vertices || !indices) throw std::bad_alloc();
         std::memcpy(vertices, scene.triangles.data(), count * sizeof(scene.triangles[0]));
         for (std::size_t i = 0; i < 3 * count; ++i) indices[i] = static_cast<std::uint32_t>(i);
@@ -74,13 +74,16 @@ RayScene::RayScene(const Scene& scene) : embree_(std::make_unique<Embree>()) {
     rtcCommitScene(embree_->scene);
     const RTCError error = rtcGetDeviceError(embree_->device);
     if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
-    if (error != RTC_ERROR_NONE) throw std::runtime_error("Embree cannot build its hierarchy: error " + std::to_string(error));
+    if (error != RTC_ERROR_NONE)
+        throw std::runtime_error("Embree cannot build its hierarchy: error " + std::to_string(error));
 
     float reach = 1.0f;
     if (!scene.bounds.is_empty()) {
-        for (int axis = 0; axis < 3; ++axis) reach = std::max({reach, std::abs(scene.bounds.lo[axis]), std::abs(scene.bounds.hi[axis])});
+        for (int axis = 0; axis < 3; ++axis)
+            reach = std::max({reach, std::abs(scene.bounds.lo[axis]), std::abs(scene.bounds.hi[axis])});
     }
-    // 16 units in the last place of the farthest coordinate: a corner is off by half of one, a plane through three by a few.
+    // 16 units in the last place of the farthest coordinate: a corner is off by half of one, a plane through three by a
+    // few.
     embree_->surface_offset = std::max(1e-3f, 16.0f * reach * 0x1p-23f);
 }
 
@@ -107,7 +110,9 @@ std::optional<Hit> RayScene::first_hit(const Vec3f& origin, const Vec3f& directi
     return Hit{query.ray.tfar, query.hit.primID, query.hit.u, query.hit.v, glm::dot(normal, direction) > 0.0f};
 }
 
-float RayScene::surface_offset() const { return embree_->surface_offset; }
+float RayScene::surface_offset() const {
+    return embree_->surface_offset;
+}
 
 const char* RayScene::isa() const {
     // Embree picks the widest instruction set that it was built for and that the processor has.
@@ -131,7 +136,9 @@ DirectionPacket::DirectionPacket(const RayScene& scene) : scene_(scene), rays_(n
     rays_->context = coherent_context();
 }
 
-DirectionPacket::~DirectionPacket() { delete rays_; }
+DirectionPacket::~DirectionPacket() {
+    delete rays_;
+}
 
 void DirectionPacket::set_direction(const Vec3f& direction, float distance) {
     distance_ = distance;
@@ -141,9 +148,8 @@ void DirectionPacket::set_direction(const Vec3f& direction, float distance) {
 }
 
 std::uint32_t DirectionPacket::occluded(const float* x, const float* y, const float* z, int count) {
-    alignas(64) static constexpr int kAllThenNone[2 * RayScene::kPacketSize] = {-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1,
-                                                                                -1, -1, -1, -1, -1, 0,  0,  0,  0,  0,  0,
-                                                                                0,  0,  0,  0,  0,  0,  0,  0,  0,  0};
+    alignas(64) static constexpr int kAllThenNone[2 * RayScene::kPacketSize] = {
+        -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
     SKYBAKE_DCHECK_LT(count, RayScene::kPacketSize + 1);
     RTCRay16& packet = rays_->packet;
     const std::size_t bytes = static_cast<std::size_t>(count) * sizeof(float);

@@ -19,8 +19,8 @@ struct Hit {
     bool is_back_face = false;   // the ray meets the inner side
 };
 
-/// The bounding volume hierarchy over a scene's triangles. Read-only after construction: any number of threads may trace.
-/// Triangles block light from both sides.
+/// The bounding volume hierarchy over a scene's triangles. Read-only after construction: any number of threads may
+/// trace. Triangles block light from both sides.
 class RayScene {
   public:
     static constexpr int kPacketSize = 16;
@@ -30,12 +30,14 @@ class RayScene {
     RayScene(RayScene&&) noexcept;
 
     /// True when something blocks the segment from `origin` along unit `direction`, up to `distance` metres.
-    bool is_occluded(const Vec3f& origin, const Vec3f& direction, float distance = std::numeric_limits<float>::infinity()) const;
+    bool is_occluded(const Vec3f& origin, const Vec3f& direction,
+                     float distance = std::numeric_limits<float>::infinity()) const;
 
     /// The nearest hit, or none.
     std::optional<Hit> first_hit(const Vec3f& origin, const Vec3f& direction) const;
 
-    /// How far ray origins are lifted off their surface, metres: well above the rounding of float coordinates of this scene.
+    /// How far ray origins are lifted off their surface, metres: well above the rounding of float coordinates of this
+    /// scene.
     float surface_offset() const;
 
     /// Name of the instruction set that Embree traces with ("avx2", "avx512", …): hits may differ between them.
@@ -47,8 +49,8 @@ class RayScene {
     std::unique_ptr<Embree> embree_;
 };
 
-/// Packets of 16 rays that share one direction: neighbouring texels looking at the same point of the sky. This is what the tracer is
-/// fastest at (docs/architecture.md, "Rays"). One object a thread.
+/// Packets of 16 rays that share one direction: neighbouring texels looking at the same point of the sky. This is what
+/// the tracer is fastest at (docs/architecture.md, "Rays"). One object a thread.
 class DirectionPacket {
   public:
     explicit DirectionPacket(const RayScene& scene);
@@ -59,7 +61,8 @@ class DirectionPacket {
     /// The unit direction of all rays that follow, and how far they look, metres.
     void set_direction(const Vec3f& direction, float distance = std::numeric_limits<float>::infinity());
 
-    /// Bit i of the result is set when the ray from (x[i], y[i], z[i]) is blocked; only the first `count` ≤ 16 are traced and read.
+    /// Bit i of the result is set when the ray from (x[i], y[i], z[i]) is blocked; only the first `count` ≤ 16 are
+    /// traced and read.
     std::uint32_t occluded(const float* x, const float* y, const float* z, int count);
 
   private:

@@ -13,7 +13,9 @@ namespace {
 constexpr float kL = 1000.0f;  // cd m⁻²
 const float kOpen = static_cast<float>(kPi) * kL;
 
-Daylight uniform_sky() { return {"uniform", UniformSky{kL}, {{0, 0, 1}, Rgb(0), 0, 0.00465f, SunShape::none}}; }
+Daylight uniform_sky() {
+    return {"uniform", UniformSky{kL}, {{0, 0, 1}, Rgb(0), 0, 0.00465f, SunShape::none}};
+}
 
 /// Skylight at a point under a uniform sky of luminance kL.
 float sky_at(const Scene& scene, const Vec3f& position, const Vec3f& normal, int samples) {
@@ -30,7 +32,8 @@ struct SamplesAndBound {
     float bound;
 };
 class Analytic : public testing::TestWithParam<SamplesAndBound> {};
-INSTANTIATE_TEST_SUITE_P(DefaultAndFine, Analytic, testing::Values(SamplesAndBound{1024, 0.01f}, SamplesAndBound{4096, 0.003f}));
+INSTANTIATE_TEST_SUITE_P(DefaultAndFine, Analytic,
+                         testing::Values(SamplesAndBound{1024, 0.01f}, SamplesAndBound{4096, 0.003f}));
 
 TEST_P(Analytic, OpenGroundGetsPiL) {
     const Scene scene = QuadScene().ground(100).scene();
@@ -39,25 +42,32 @@ TEST_P(Analytic, OpenGroundGetsPiL) {
 
 TEST_P(Analytic, FreeWallGetsHalf) {
     const Scene scene = QuadScene().ground(100).box({-5, -5, 0}, {5, 5, 20}).scene();
-    EXPECT_NEAR(sky_at(scene, {0, -5, 10}, {0, -1, 0}, GetParam().samples), 0.5f * kOpen, GetParam().bound * 0.5f * kOpen);
+    EXPECT_NEAR(sky_at(scene, {0, -5, 10}, {0, -1, 0}, GetParam().samples), 0.5f * kOpen,
+                GetParam().bound * 0.5f * kOpen);
 }
 
-// Endless walls are a thousand metres long: what is seen past their ends is below 1e-4, and larger coordinates would lift the points by more
-// than a millimetre or two (RayScene::surface_offset).
+// Endless walls are a thousand metres long: what is seen past their ends is below 1e-4, and larger coordinates would
+// lift the points by more than a millimetre or two (RayScene::surface_offset).
 
 /// The foot of an endless wall hides a quarter sphere: half of the horizontal irradiance is left.
 TEST_P(Analytic, FootOfALongWallGetsHalf) {
     const Scene scene = QuadScene().ground(1500).box({-1000, 0, 0}, {1000, 10, 2000}).scene();
-    EXPECT_NEAR(sky_at(scene, {0, -0.05f, 0}, {0, 0, 1}, GetParam().samples), 0.5f * kOpen, GetParam().bound * 0.5f * kOpen);
+    EXPECT_NEAR(sky_at(scene, {0, -0.05f, 0}, {0, 0, 1}, GetParam().samples), 0.5f * kOpen,
+                GetParam().bound * 0.5f * kOpen);
 }
 
 /// The floor's centre in an endless canyon of height h and width w sees 1/√(1 + 4h²/w²) (Oke 1987; crossed strings).
 TEST_P(Analytic, CanyonFloor) {
     for (const float h : {5.0f, 10.0f, 25.0f}) {
         const float w = 10.0f;
-        const Scene scene = QuadScene().ground(1500).box({-1000, -25, 0}, {1000, -w / 2, h}).box({-1000, w / 2, 0}, {1000, 25, h}).scene();
+        const Scene scene = QuadScene()
+                                .ground(1500)
+                                .box({-1000, -25, 0}, {1000, -w / 2, h})
+                                .box({-1000, w / 2, 0}, {1000, 25, h})
+                                .scene();
         const float expected = kOpen / std::sqrt(1.0f + 4.0f * h * h / (w * w));
-        // The error of N directions is one of the visible share: in the deep canyon, where a fifth is left, the bound is taken of open ground.
+        // The error of N directions is one of the visible share: in the deep canyon, where a fifth is left, the bound
+        // is taken of open ground.
         const float bound = GetParam().bound * (h > 2.0f * w ? kOpen : expected);
         EXPECT_NEAR(sky_at(scene, {0, 0, 0}, {0, 0, 1}, GetParam().samples), expected, bound) << "h/w " << h / w;
     }
@@ -82,11 +92,14 @@ Baked bake(const Scene& scene, float texel_m, const Daylight& daylight, const Ba
 /// Light of the texel that holds `point`, on the chart whose plane holds it.
 Rgb at(const Baked& baked, const Vec3f& point, const Vec3f& normal) {
     for (const Chart& chart : baked.atlas.charts) {
-        if (glm::dot(chart.normal, normal) < 0.999f || std::abs(glm::dot(point - chart.origin, chart.normal)) > 0.01f) continue;
+        if (glm::dot(chart.normal, normal) < 0.999f || std::abs(glm::dot(point - chart.origin, chart.normal)) > 0.01f)
+            continue;
         const Vec2f t = texel_coordinate(chart, point);
-        if (t.x < 0 || t.y < 0 || t.x >= static_cast<float>(chart.size.x) || t.y >= static_cast<float>(chart.size.y)) continue;
+        if (t.x < 0 || t.y < 0 || t.x >= static_cast<float>(chart.size.x) || t.y >= static_cast<float>(chart.size.y))
+            continue;
         const LightmapPage& page = baked.lightmaps.pages[chart.page.index()];
-        const std::size_t texel = static_cast<std::size_t>((chart.position.y + static_cast<int>(t.y)) * page.width + chart.position.x + static_cast<int>(t.x));
+        const std::size_t texel = static_cast<std::size_t>((chart.position.y + static_cast<int>(t.y)) * page.width +
+                                                           chart.position.x + static_cast<int>(t.x));
         return total_irradiance(baked.lightmaps.instants[0], chart.page.index(), texel);
     }
     ADD_FAILURE() << "no chart at the point";
@@ -104,22 +117,26 @@ TEST(AnalyticBake, OpenGroundAndWallThroughTheAtlas) {
 
 TEST(AnalyticBake, CanyonFloorThroughTheAtlas) {
     const float w = 10.0f, h = 10.0f;
-    const Scene scene = QuadScene().ground(60).box({-250, -25, 0}, {250, -w / 2, h}).box({-250, w / 2, 0}, {250, 25, h}).scene();
+    const Scene scene =
+        QuadScene().ground(60).box({-250, -25, 0}, {250, -w / 2, h}).box({-250, w / 2, 0}, {250, 25, h}).scene();
     const float expected = kOpen / std::sqrt(1.0f + 4.0f * h * h / (w * w));
     const Baked baked = bake(scene, 0.5f, uniform_sky(), {4096, 0.01f});
-    // The two texels beside the centre line; their mean is the centre's to second order (0.25² × curvature: below 0.1 %).
-    const float centre = 0.5f * (luminance(at(baked, {0.2f, 0.2f, 0}, {0, 0, 1})) + luminance(at(baked, {0.2f, -0.2f, 0}, {0, 0, 1})));
+    // The two texels beside the centre line; their mean is the centre's to second order (0.25² × curvature: below 0.1
+    // %).
+    const float centre =
+        0.5f * (luminance(at(baked, {0.2f, 0.2f, 0}, {0, 0, 1})) + luminance(at(baked, {0.2f, -0.2f, 0}, {0, 0, 1})));
     EXPECT_NEAR(centre, expected, 0.004f * expected);
 }
 
-/// A shadow's edge is antialiased by area: the shadow's texels add up to its area. Four rows of points a texel place a straight edge to
-/// 1/8 texel, so 20 columns are right to 2.5 texels.
+/// A shadow's edge is antialiased by area: the shadow's texels add up to its area. Four rows of points a texel place a
+/// straight edge to 1/8 texel, so 20 columns are right to 2.5 texels.
 TEST(AnalyticBake, ShadowOfABoxHasItsArea) {
     const float height = 10.3f;
     const Scene scene = QuadScene().ground(40).box({-5, -5, 0}, {5, 5, height}).scene();
     Daylight sun = uniform_sky();
     sun.sky = NoSky{};
-    sun.sun = {glm::normalize(Vec3f(0, -1, 1)), Rgb(1.0f), 1.0f, 0.00465f, SunShape::point};  // 45° high: the shadow is as long as the box is high
+    sun.sun = {glm::normalize(Vec3f(0, -1, 1)), Rgb(1.0f), 1.0f, 0.00465f,
+               SunShape::point};  // 45° high: the shadow is as long as the box is high
     const Baked baked = bake(scene, 0.5f, sun, {64, std::nullopt});
     double shadow = 0.0;
     int buried = 0;
@@ -129,19 +146,24 @@ TEST(AnalyticBake, ShadowOfABoxHasItsArea) {
             if (page.state[i] == TexelState::gutter || page.state[i] == TexelState::empty) continue;
             if (baked.atlas.charts[page.chart[i].index()].size.x < 100) continue;  // the box
             buried += page.state[i] == TexelState::buried;
-            if (page.state[i] == TexelState::chart) shadow += 1.0 - static_cast<double>(baked.lightmaps.instants[0].pages[p].sun_cosine[i]) / std::sqrt(0.5);
+            if (page.state[i] == TexelState::chart)
+                shadow +=
+                    1.0 - static_cast<double>(baked.lightmaps.instants[0].pages[p].sun_cosine[i]) / std::sqrt(0.5);
         }
     }
     EXPECT_EQ(buried, 20 * 20 - 14 * 14);  // the ground under the box, as far in as three texels
     EXPECT_NEAR(shadow, 14 * 14 + 20 * (static_cast<double>(height) / 0.5), 2.5);
 }
 
-/// No light leaks under the box, and no dark rim beside it: along its north wall's foot, lookups between texels stay lit by the sky.
+/// No light leaks under the box, and no dark rim beside it: along its north wall's foot, lookups between texels stay
+/// lit by the sky.
 TEST(AnalyticBake, GroundBesideAWallHasNoDarkRim) {
-    const Scene scene = QuadScene().ground(40).box({-5.2f, -5.2f, 0}, {5.2f, 5.2f, 10}).scene();  // the wall cuts through texels
+    const Scene scene =
+        QuadScene().ground(40).box({-5.2f, -5.2f, 0}, {5.2f, 5.2f, 10}).scene();  // the wall cuts through texels
     const Baked baked = bake(scene, 0.5f, uniform_sky(), {512, std::nullopt});
     for (float x = -4.0f; x < 4.0f; x += 0.5f) {
-        for (const float y : {5.3f, 5.0f, 4.6f}) {  // outside, cut by the wall, wholly inside but within a bilinear lookup's reach
+        for (const float y :
+             {5.3f, 5.0f, 4.6f}) {  // outside, cut by the wall, wholly inside but within a bilinear lookup's reach
             EXPECT_GT(luminance(at(baked, {x, y, 0}, {0, 0, 1})), 0.3f * kOpen) << x << ' ' << y;
         }
     }

@@ -11,15 +11,21 @@
 namespace skybake {
 namespace {
 
-/// Boxes of 8–20 m on a warped grid of 24 m, some with a chimney of 0.6 m: shadows of all lengths and features thinner than a cell.
+/// Boxes of 8–20 m on a warped grid of 24 m, some with a chimney of 0.6 m: shadows of all lengths and features thinner
+/// than a cell.
 Scene box_town() {
     QuadScene town;
     town.ground(60);
-    const auto random = [](int i, int j, int k) { return uniform_float(7, static_cast<std::uint64_t>(i + 10), static_cast<std::uint64_t>(j + 10), static_cast<std::uint64_t>(k)); };
+    const auto random = [](int i, int j, int k) {
+        return uniform_float(7, static_cast<std::uint64_t>(i + 10), static_cast<std::uint64_t>(j + 10),
+                             static_cast<std::uint64_t>(k));
+    };
     for (int i = -2; i < 2; ++i) {
         for (int j = -2; j < 2; ++j) {
-            const Vec3f lo(24.0f * static_cast<float>(i) + 2.0f + 4.0f * random(i, j, 0), 24.0f * static_cast<float>(j) + 2.0f + 4.0f * random(i, j, 1), 0.0f);
-            const Vec3f hi = lo + Vec3f(10.0f + 8.0f * random(i, j, 2), 10.0f + 8.0f * random(i, j, 3), 8.0f + 12.0f * random(i, j, 4));
+            const Vec3f lo(24.0f * static_cast<float>(i) + 2.0f + 4.0f * random(i, j, 0),
+                           24.0f * static_cast<float>(j) + 2.0f + 4.0f * random(i, j, 1), 0.0f);
+            const Vec3f hi = lo + Vec3f(10.0f + 8.0f * random(i, j, 2), 10.0f + 8.0f * random(i, j, 3),
+                                        8.0f + 12.0f * random(i, j, 4));
             town.box(lo, hi);
             if (random(i, j, 5) > 0.3f) {
                 const Vec3f foot(lo.x + 3.0f, lo.y + 4.0f, hi.z - 0.3f);
@@ -33,7 +39,10 @@ Scene box_town() {
 Lightmaps bake(const Scene& scene, const Atlas& atlas, std::optional<float> tolerance, BakeReport& report) {
     const RayScene rays(scene);
     SilentProgress silent;
-    const std::vector<Daylight> instants{{"noon", UniformSky{1000.0f}, {glm::normalize(Vec3f(0.3f, -0.6f, 0.7f)), Rgb(50000.0f), 700.0f, 0.00465f, SunShape::point}}};
+    const std::vector<Daylight> instants{
+        {"noon",
+         UniformSky{1000.0f},
+         {glm::normalize(Vec3f(0.3f, -0.6f, 0.7f)), Rgb(50000.0f), 700.0f, 0.00465f, SunShape::point}}};
     return bake_lightmaps(scene, atlas, rays, instants, {1024, tolerance}, silent, report);
 }
 
@@ -47,7 +56,8 @@ TEST(Hierarchy, KeepsItsToleranceAndSavesRays) {
     for (std::size_t p = 0; p < full.pages.size(); ++p) {
         for (std::size_t i = 0; i < full.pages[p].state.size(); ++i) {
             if (full.pages[p].state[i] != TexelState::chart) continue;
-            const double a = static_cast<double>(luminance(full.instants[0].pages[p].sky[i])), b = static_cast<double>(luminance(fast.instants[0].pages[p].sky[i]));
+            const double a = static_cast<double>(luminance(full.instants[0].pages[p].sky[i])),
+                         b = static_cast<double>(luminance(fast.instants[0].pages[p].sky[i]));
             error2 += (a - b) * (a - b);
             worst = std::max(worst, std::abs(a - b));
             sum += a;
@@ -56,8 +66,8 @@ TEST(Hierarchy, KeepsItsToleranceAndSavesRays) {
     }
     const double rmse = std::sqrt(error2 / count) / (sum / count);
     RecordProperty("rmse", std::to_string(rmse));
-    std::printf("evaluated %.3f, rmse %.4f of the mean, predicted %.4f, worst %.3f of the mean\n", report.evaluated_fraction, rmse,
-                report.predicted_rmse_over_mean, worst / (sum / count));
+    std::printf("evaluated %.3f, rmse %.4f of the mean, predicted %.4f, worst %.3f of the mean\n",
+                report.evaluated_fraction, rmse, report.predicted_rmse_over_mean, worst / (sum / count));
     EXPECT_EQ(full_report.evaluated_fraction, 1.0);
     EXPECT_LE(rmse, 0.01);
     EXPECT_LE(report.evaluated_fraction, 0.25);

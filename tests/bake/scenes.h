@@ -11,11 +11,13 @@ namespace skybake {
 /// A scene of quads, each an object of its own; corners counter-clockwise seen from outside.
 class QuadScene {
   public:
-    QuadScene& quad(const Vec3f& a, const Vec3f& b, const Vec3f& c, const Vec3f& d, ObjectType type = ObjectType::building) {
+    QuadScene& quad(const Vec3f& a, const Vec3f& b, const Vec3f& c, const Vec3f& d,
+                    ObjectType type = ObjectType::building) {
         const std::uint32_t object = static_cast<std::uint32_t>(scene_.objects.size());
         const std::string id = "quad-" + std::to_string(object);
         scene_.objects.push_back({id, id, type});
-        scene_.faces.push_back({object, SurfaceType::wall, MaterialId(std::size_t{0}), static_cast<std::uint32_t>(scene_.triangles.size()), 2, 0});
+        scene_.faces.push_back({object, SurfaceType::wall, MaterialId(std::size_t{0}),
+                                static_cast<std::uint32_t>(scene_.triangles.size()), 2, 0});
         for (const std::array<Vec3f, 3>& t : {std::array{a, b, c}, std::array{a, c, d}}) {
             scene_.triangles.push_back(t);
             scene_.triangle_uvs.push_back({Vec2f(0), Vec2f(0), Vec2f(0)});
@@ -26,7 +28,8 @@ class QuadScene {
     }
     /// A horizontal square about the origin, facing up.
     QuadScene& ground(float half_size, float z = 0.0f, ObjectType type = ObjectType::terrain) {
-        return quad({-half_size, -half_size, z}, {half_size, -half_size, z}, {half_size, half_size, z}, {-half_size, half_size, z}, type);
+        return quad({-half_size, -half_size, z}, {half_size, -half_size, z}, {half_size, half_size, z},
+                    {-half_size, half_size, z}, type);
     }
     /// A closed box, facing outwards.
     QuadScene& box(const Vec3f& lo, const Vec3f& hi) {
@@ -40,7 +43,8 @@ class QuadScene {
         return *this;
     }
     Scene scene() {
-        if (scene_.materials.empty()) scene_.materials.push_back({"white", Rgb(0.5f), std::nullopt, TextureWrap::repeat});
+        if (scene_.materials.empty())
+            scene_.materials.push_back({"white", Rgb(0.5f), std::nullopt, TextureWrap::repeat});
         return scene_;
     }
 
