@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "city/city_model.h"
-#include "sky/nearest_word.h"
+#include "base/nearest_word.h"
 
 namespace skybake::cli {
 

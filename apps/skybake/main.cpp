@@ -6,32 +6,16 @@
 #include <csignal>
 #include <exception>
 #include <new>
-#include <numeric>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
+#include "base/nearest_word.h"
 #include "program.h"
 
 namespace {
 
 using namespace skybake::cli;
-
-/// Levenshtein's edit distance.
-std::size_t edit_distance(const std::string& a, const std::string& b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t{0});
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i;
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t above = row[j];
-            row[j] = std::min({row[j] + 1, row[j - 1] + 1, diagonal + (a[i - 1] != b[j - 1])});
-            diagonal = above;
-        }
-    }
-    return row[b.size()];
-}
 
 /// The known flag or verb that is nearest to what the user typed.
 std::string nearest_known(const CLI::App& app, const std::string& typed) {
@@ -43,10 +27,7 @@ std::string nearest_known(const CLI::App& app, const std::string& typed) {
             for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
         }
     }
-    const auto nearest = std::min_element(known.begin(), known.end(), [&](const std::string& a, const std::string& b) {
-        return edit_distance(a, typed) < edit_distance(b, typed);
-    });
-    return nearest == known.end() ? "" : *nearest;
+    return skybake::nearest_word(typed, known);
 }
 
 }  // namespace

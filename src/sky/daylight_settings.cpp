@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "sky/clear_sky.h"
-#include "sky/nearest_word.h"
+#include "base/nearest_word.h"
 #include "sky/solar_position.h"
 #include "sky/sun_beam.h"
 

@@ -10,7 +10,7 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "sky/nearest_word.h"
+#include "base/nearest_word.h"
 
 namespace skybake {
 
