@@ -6,17 +6,20 @@ BUILD := build/$(PRESET)
 VIEWER_SOURCES := $(shell find viewer -path viewer/node_modules -prune -o -path viewer/dist -prune -o -type f -print 2>/dev/null)
 export SKYBAKE_COMPILER_LAUNCHER ?= $(shell command -v ccache 2>/dev/null)
 
-.PHONY: demo test build viewer packages unit asan tsan bench format tidy clean
+.PHONY: demo test build program viewer packages unit asan tsan bench format tidy clean
 
-demo: build
+demo: program
 	$(BUILD)/bin/skybake demo demo $(DEMO_FLAGS)
 
 test: build
 	tools/test $(BUILD)
 
-build: packages viewer
-	cmake --preset $(PRESET) >/dev/null
+build: program
 	cmake --build --preset $(PRESET)
+
+program: packages viewer
+	cmake --preset $(PRESET) >/dev/null
+	cmake --build --preset $(PRESET) --target skybake_program
 
 packages:
 	tools/install-packages

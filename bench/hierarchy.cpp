@@ -13,6 +13,7 @@ struct Error {
     double rmse_over_mean = 0.0;
     double max_over_mean = 0.0;
     double bias_over_mean = 0.0;
+    double mean = 0.0;
     std::uint64_t off = 0;  // texels off by more than a tenth of the mean
     std::uint64_t texels = 0;
 };
@@ -40,10 +41,47 @@ Error error_of(const Lightmaps& a, const Lightmaps& reference) {
     });
     const double n = static_cast<double>(error.texels), mean = sum / n;
     for_texels([&](double x, double y) { error.off += std::abs(x - y) > 0.1 * mean; });
+    error.mean = mean;
     error.rmse_over_mean = std::sqrt(squares / n) / mean;
     error.bias_over_mean = bias / n / mean;
     error.max_over_mean = worst / mean;
     return error;
+}
+
+/// Where the hierarchy is off by more than a tenth of the mean: point, normal and signed error of the worst texels.
+void list_off_texels(const Atlas& atlas, const Lightmaps& fast, const Lightmaps& full, double mean) {
+    struct Off {
+        double error;
+        const Chart* chart;
+        Vec3f point;
+    };
+    std::vector<Off> off;
+    for (const Chart& chart : atlas.charts) {
+        const std::size_t p = chart.page.index();
+        for (int row = 0; row < chart.size.y; ++row) {
+            for (int column = 0; column < chart.size.x; ++column) {
+                const std::size_t i =
+                    static_cast<std::size_t>(chart.position.y + row) * static_cast<std::size_t>(full.pages[p].width) +
+                    static_cast<std::size_t>(chart.position.x + column);
+                if (full.pages[p].state[i] != TexelState::chart || fast.pages[p].state[i] != TexelState::chart)
+                    continue;
+                const double error = static_cast<double>(luminance(fast.instants[0].pages[p].sky[i]) -
+                                                         luminance(full.instants[0].pages[p].sky[i]));
+                if (std::abs(error) <= 0.1 * mean) continue;
+                off.push_back({error / mean, &chart,
+                               chart.origin + (static_cast<float>(column) + 0.5f) * chart.u +
+                                   (static_cast<float>(row) + 0.5f) * chart.v});
+            }
+        }
+    }
+    std::sort(off.begin(), off.end(), [](const Off& a, const Off& b) { return std::abs(a.error) > std::abs(b.error); });
+    for (std::size_t k = 0; k < std::min<std::size_t>(off.size(), 20); ++k) {
+        const Vec3f& n = off[k].chart->normal;
+        const Vec3f& p = off[k].point;
+        fmt::print(
+            "    off by {:+.1f} % at {:.2f} {:.2f} {:.2f}, normal {:.2f} {:.2f} {:.2f}, chart of {} x {} texels\n",
+            100.0 * off[k].error, p.x, p.y, p.z, n.x, n.y, n.z, off[k].chart->size.x, off[k].chart->size.y);
+    }
 }
 
 }  // namespace
@@ -88,6 +126,7 @@ int main(int argc, char** argv) {
                 fmt::format("tol {}", tolerance), directions, static_cast<double>(fast_report.rays.sky) / texels,
                 fast_report.seconds.sky, 100.0 * error_of(fast, reference).rmse_over_mean, 100.0 * own.rmse_over_mean,
                 100.0 * own.max_over_mean, own.off, own.texels, 100.0 * fast_report.evaluated_fraction);
+            if (directions == 1024 && tolerance == 0.01f) list_off_texels(atlas, fast, full, own.mean);
         }
     }
 }

@@ -32,13 +32,16 @@ constexpr std::size_t kPilots = 16;
 // either side: only a net beyond so many standard deviations (√n for n errors of ±1) is not.
 constexpr float kAnchoredFills = 2.0f;
 constexpr float kAnchoredDeviations = 3.0f;
-// Tiles with fewer texels are traced in full: a lattice would save nothing.
-constexpr int kSmallTile = 64;
+// Tiles of one packet are traced in full: a lattice would save nothing.
+constexpr int kSmallTile = kPacket;
 // In dark tiles the tolerance is relative to this share of the unobstructed light, lest rays are spent on errors nobody
 // sees.
 constexpr float kDarkTile = 0.1f;
-// From cheap to dear; the first that keeps the tolerance in a tile is taken, the last resort being every texel.
-constexpr std::array<Lattice, 7> kLattices{{{16, 4}, {8, 4}, {16, 2}, {8, 2}, {16, 1}, {8, 1}, {4, 1}}};
+// Of those with the largest last cell that keep the tolerance in a tile, the one with the fewest packets is taken; the
+// last resort is every texel.
+constexpr std::array<Lattice, 9> kLattices{{{16, 4}, {8, 4}, {4, 4}, {16, 2}, {8, 2}, {4, 2}, {16, 1}, {8, 1}, {4, 1}}};
+// Packets of scattered texels take longer than those of neighbours: a lattice must save so many.
+constexpr double kScattered = 0.6;
 
 /// acc[i] += w × v[i].
 SKYBAKE_WIDE_LOOP void add_scaled(float* __restrict acc, const float* __restrict v, float w, std::size_t count) {
@@ -62,37 +65,99 @@ SKYBAKE_WIDE_LOOP void expand_row(float* __restrict v, std::uint64_t bits, int w
     for (int x = 32; x < width; ++x) v[x] = static_cast<float>(high >> (x - 32) & 1u);
 }
 
-/// Rays of one direction from listed texels.
+/// Listed texels in blocks of 4 × 4, so that a packet's rays start side by side; traced for one direction after
+/// another.
+class PreparedTexels {
+  public:
+    PreparedTexels(const TilePoints& points, std::span<const std::uint64_t> listed, DirectionPacket& packet)
+        : packet_(packet) {
+        for (int row = 0; row < points.height; row += 4) {
+            for (int column = 0; column < points.width; column += 4) {
+                for (int r = row; r < std::min(row + 4, points.height); ++r) {
+                    for (int c = column; c < std::min(column + 4, points.width); ++c) {
+                        if (!(listed[r] >> c & 1)) continue;
+                        const int texel = points.texel(c, r);
+                        x_.push_back(points.x[texel]);
+                        y_.push_back(points.y[texel]);
+                        z_.push_back(points.z[texel]);
+                        row_.push_back(static_cast<std::uint8_t>(r));
+                        bit_.push_back(1ull << c);
+                    }
+                }
+            }
+        }
+    }
+
+    std::size_t size() const { return x_.size(); }
+
+    /// Sets the bits of the texels that see the sky.
+    void trace(std::span<std::uint64_t> visible) {
+        for (std::size_t begin = 0; begin < size(); begin += kPacket) {
+            const int count = static_cast<int>(std::min<std::size_t>(kPacket, size() - begin));
+            std::uint32_t free = ~packet_.occluded(&x_[begin], &y_[begin], &z_[begin], count) & ((1u << count) - 1u);
+            for (; free; free &= free - 1) {
+                const std::size_t i = begin + static_cast<std::size_t>(std::countr_zero(free));
+                visible[row_[i]] |= bit_[i];
+            }
+        }
+    }
+
+  private:
+    DirectionPacket& packet_;
+    std::vector<float> x_, y_, z_;
+    std::vector<std::uint8_t> row_;
+    std::vector<std::uint64_t> bit_;
+};
+
+/// Rays of one direction.
 class RaySource final : public VisibilitySource {
   public:
-    RaySource(const TilePoints& points, DirectionPacket& packet) : points_(points), packet_(packet) {}
+    RaySource(const TilePoints& points, std::span<const std::uint64_t> first_look, DirectionPacket& packet)
+        : points_(points), packet_(packet), first_look_(points, first_look, packet) {}
 
     std::size_t look(std::span<const std::uint64_t> wanted, std::span<std::uint64_t> visible) override {
         int count = 0;
-        const std::size_t traced_before = traced_;
-        for (std::size_t row = 0; row < wanted.size(); ++row) {
-            visible[row] &= ~wanted[row];
-            for (std::uint64_t left = wanted[row]; left; left &= left - 1) {
-                const int column = std::countr_zero(left);
-                const std::size_t texel = static_cast<std::size_t>(points_.texel(column, static_cast<int>(row)));
-                x_[count] = points_.x[texel];
-                y_[count] = points_.y[texel];
-                z_[count] = points_.z[texel];
-                row_[count] = static_cast<std::uint8_t>(row);
-                column_[count] = static_cast<std::uint8_t>(column);
-                if (++count == kPacket) {
-                    trace(count, visible);
-                    count = 0;
+        std::size_t traced = 0;
+        // Cell after cell, so that a packet's rays start near each other.
+        for (std::size_t first_row = 0; first_row < wanted.size(); first_row += TilePoints::kCell) {
+            const std::size_t end_row = std::min(first_row + TilePoints::kCell, wanted.size());
+            std::uint64_t any = 0;
+            for (std::size_t row = first_row; row < end_row; ++row) {
+                any |= wanted[row];
+                visible[row] &= ~wanted[row];
+            }
+            for (std::uint64_t strip = (1ull << TilePoints::kCell) - 1; strip; strip <<= TilePoints::kCell) {
+                if (!(any & strip)) continue;
+                for (std::size_t row = first_row; row < end_row; ++row) {
+                    for (std::uint64_t left = wanted[row] & strip; left; left &= left - 1) {
+                        const int column = std::countr_zero(left);
+                        const std::size_t texel =
+                            static_cast<std::size_t>(points_.texel(column, static_cast<int>(row)));
+                        x_[count] = points_.x[texel];
+                        y_[count] = points_.y[texel];
+                        z_[count] = points_.z[texel];
+                        row_[count] = static_cast<std::uint8_t>(row);
+                        column_[count] = static_cast<std::uint8_t>(column);
+                        ++traced;
+                        if (++count == kPacket) {
+                            trace(count, visible);
+                            count = 0;
+                        }
+                    }
                 }
             }
         }
         if (count > 0) trace(count, visible);
-        return traced_ - traced_before;
+        return traced;
+    }
+
+    std::size_t look_first(std::span<const std::uint64_t>, std::span<std::uint64_t> visible) override {
+        first_look_.trace(visible);
+        return first_look_.size();
     }
 
   private:
     void trace(int count, std::span<std::uint64_t> visible) {
-        traced_ += static_cast<std::size_t>(count);
         std::uint32_t free = ~packet_.occluded(x_.data(), y_.data(), z_.data(), count) & ((1u << count) - 1u);
         for (; free; free &= free - 1) {
             const int i = std::countr_zero(free);
@@ -102,7 +167,7 @@ class RaySource final : public VisibilitySource {
 
     const TilePoints& points_;
     DirectionPacket& packet_;
-    std::size_t traced_ = 0;
+    PreparedTexels first_look_;
     alignas(64) std::array<float, kPacket> x_, y_, z_;
     std::array<std::uint8_t, kPacket> row_, column_;
 };
@@ -118,54 +183,16 @@ class PilotSource final : public VisibilitySource {
             visible[row] = (visible[row] & ~wanted[row]) | (truth_[row] & wanted[row]);
             count += static_cast<std::size_t>(std::popcount(wanted[row]));
         }
+        packets_ += (count + kPacket - 1) / kPacket;
         return count;
     }
 
+    /// Packets that rays would have taken.
+    std::size_t packets() const { return packets_; }
+
   private:
     std::span<const std::uint64_t> truth_;
-};
-
-/// All listed texels in blocks of 4 × 4, so that a packet's rays start side by side.
-class FullSampler {
-  public:
-    FullSampler(const TilePoints& points, DirectionPacket& packet) : points_(points), packet_(packet) {
-        for (int row = 0; row < points.height; row += 4) {
-            for (int column = 0; column < points.width; column += 4) {
-                for (int y = row; y < std::min(row + 4, points.height); ++y) {
-                    for (int x = column; x < std::min(column + 4, points.width); ++x) {
-                        if (points.covered[y] >> x & 1)
-                            texels_.push_back(static_cast<std::uint16_t>(points.texel(x, y)));
-                    }
-                }
-            }
-        }
-        for (const std::uint16_t texel : texels_) {
-            x_.push_back(points.x[texel]);
-            y_.push_back(points.y[texel]);
-            z_.push_back(points.z[texel]);
-        }
-    }
-
-    std::size_t size() const { return texels_.size(); }
-
-    void trace(std::span<std::uint64_t> visible) {
-        std::fill(visible.begin(), visible.end(), 0);
-        for (std::size_t begin = 0; begin < texels_.size(); begin += kPacket) {
-            const int count = static_cast<int>(std::min<std::size_t>(kPacket, texels_.size() - begin));
-            std::uint32_t free = ~packet_.occluded(&x_[begin], &y_[begin], &z_[begin], count) & ((1u << count) - 1u);
-            // Blocks are mostly all free or all hidden; walk the free ones.
-            for (; free; free &= free - 1) {
-                const std::uint16_t texel = texels_[begin + static_cast<std::size_t>(std::countr_zero(free))];
-                visible[texel / points_.width] |= 1ull << (texel % points_.width);
-            }
-        }
-    }
-
-  private:
-    const TilePoints& points_;
-    DirectionPacket& packet_;
-    std::vector<std::uint16_t> texels_;
-    std::vector<float> x_, y_, z_;
+    std::size_t packets_ = 0;
 };
 
 /// Sums of light over the directions.
@@ -270,23 +297,23 @@ float threshold_of(std::size_t direction) {
 /// What a lattice would have made of the pilot directions.
 struct Trial {
     double squared_error = 0.0;           // predicted, of the visible share, mean over texels, for all directions
-    double rays = 0.0;                    // a direction
+    double packets = 0.0;                 // a direction
     std::vector<std::uint64_t> anchored;  // texels whose errors do not average out
 };
 
-Trial try_lattice(const TilePoints& points, VisibilityGrid& grid, const Lattice& lattice,
-                  std::span<const std::vector<std::uint64_t>> pilots, std::size_t texel_count,
-                  std::size_t direction_count) {
+Trial try_lattice(const TilePoints& points, VisibilityGrid& grid, std::span<const std::vector<std::uint64_t>> pilots,
+                  std::size_t texel_count, std::size_t direction_count) {
     Trial trial;
     trial.anchored.assign(points.covered.size(), 0);
     const std::size_t count = static_cast<std::size_t>(points.width) * static_cast<std::size_t>(points.height);
-    std::vector<float> fill_net(count, 0.0f), net(count, 0.0f), errors(count, 0.0f);
+    std::vector<float> fill_net(count, 0.0f), net(count, 0.0f), errors(count, 0.0f);  // of errors −1, 0, 1
     std::vector<std::uint64_t> visible(points.covered.size()), touched(points.covered.size(), 0);
     double square_sum = 0.0;  // Σ e² over pilots and texels, e in {−1, 0, 1}
     for (std::size_t p = 0; p < pilots.size(); ++p) {
         const std::vector<std::uint64_t>& truth = pilots[p];
         PilotSource source(truth);
-        trial.rays += static_cast<double>(grid.solve(lattice, threshold_of(p), source, visible));
+        grid.solve(threshold_of(p), source, visible);
+        trial.packets += static_cast<double>(source.packets());
         for (int row = 0; row < points.height; ++row) {
             for (std::uint64_t wrong = (visible[row] ^ truth[row]) & points.covered[row]; wrong; wrong &= wrong - 1) {
                 const int column = std::countr_zero(wrong);
@@ -299,21 +326,73 @@ Trial try_lattice(const TilePoints& points, VisibilityGrid& grid, const Lattice&
             }
         }
     }
+    double bias_sum = 0.0;
     for (int row = 0; row < points.height; ++row) {
         for (std::uint64_t left = touched[row]; left; left &= left - 1) {
             const int column = std::countr_zero(left);
             const std::size_t texel = static_cast<std::size_t>(points.texel(column, row));
+            const double sum = static_cast<double>(fill_net[texel] + net[texel]);
+            bias_sum += sum * sum - static_cast<double>(errors[texel]);
             if (std::abs(fill_net[texel]) >= kAnchoredFills ||
                 std::abs(net[texel]) > kAnchoredDeviations * std::sqrt(errors[texel])) {
                 trial.anchored[row] |= 1ull << column;
             }
         }
     }
-    // What is left averages out: E[(Σ_j e_j / N)²] over N directions is the mean square over N.
+    // Mean squared error of N directions: the squared bias, of which (Σe)² − Σe² over n (n − 1) is an unbiased
+    // estimate, and the variance Σe² / n, over N.
     const double n = static_cast<double>(pilots.size());
-    trial.squared_error = square_sum / n / static_cast<double>(direction_count) / static_cast<double>(texel_count);
-    trial.rays /= n;
+    trial.squared_error =
+        (std::max(bias_sum, 0.0) / (n * (n - 1.0)) + square_sum / n / static_cast<double>(direction_count)) /
+        static_cast<double>(texel_count);
+    trial.packets /= n;
     return trial;
+}
+
+/// The tile's features, without those that lie in the dark, such as inside a wall between two houses: no pilot sees
+/// them, nor any texel beside them.
+std::vector<std::uint64_t> features_in_light(const TilePoints& points,
+                                             std::span<const std::vector<std::uint64_t>> pilots) {
+    std::vector<std::uint64_t> seen(points.covered.size(), 0), features(points.covered.size(), 0);
+    for (const std::vector<std::uint64_t>& pilot : pilots) {
+        for (std::size_t row = 0; row < seen.size(); ++row) seen[row] |= pilot[row];
+    }
+    for (std::size_t row = 0; row < seen.size(); ++row) {
+        std::uint64_t near = seen[row];
+        if (row > 0) near |= seen[row - 1];
+        if (row + 1 < seen.size()) near |= seen[row + 1];
+        features[row] = points.is_feature[row] & (near | near << 1 | near >> 1);
+    }
+    return features;
+}
+
+struct Choice {
+    Lattice lattice;
+    Trial trial;
+};
+
+/// None: full sampling is the cheapest way to keep the tolerance.
+std::optional<Choice> choose_lattice(const TilePoints& points, std::span<const std::uint64_t> features,
+                                     VisibilityGrid& grid, std::span<const std::vector<std::uint64_t>> pilots,
+                                     std::size_t texel_count, std::size_t direction_count, double tolerance) {
+    const std::vector<std::uint64_t> nothing(points.covered.size(), 0);
+    std::optional<Choice> best;
+    double fewest_packets = kScattered * static_cast<double>((texel_count + kPacket - 1) / kPacket);
+    for (const Lattice& lattice : kLattices) {
+        if (best && lattice.last_cell < best->lattice.last_cell) break;  // finer ones are dearer
+        grid.set(lattice, features, nothing);
+        Trial trial = try_lattice(points, grid, pilots, texel_count, direction_count);
+        if (std::any_of(trial.anchored.begin(), trial.anchored.end(), [](std::uint64_t row) { return row != 0; })) {
+            std::vector<std::uint64_t> anchored = std::move(trial.anchored);
+            grid.set(lattice, features, anchored);
+            trial = try_lattice(points, grid, pilots, texel_count, direction_count);
+            trial.anchored = std::move(anchored);
+        }
+        if (trial.squared_error > tolerance * tolerance || trial.packets >= fewest_packets) continue;
+        fewest_packets = trial.packets;
+        best = Choice{lattice, std::move(trial)};
+    }
+    return best;
 }
 
 std::uint64_t fixed_point(double value) {
@@ -367,7 +446,7 @@ TileLight light_tile(const TilePoints& points, const DomeSamples& dome, Directio
                      const SkyTileOptions& options, SkyTileStatistics& statistics) {
     SKYBAKE_CHECK_LE(points.width, TilePoints::kMaxTexels);
     SKYBAKE_CHECK_LE(points.height, TilePoints::kMaxTexels);
-    FullSampler full(points, packet);
+    PreparedTexels full(points, points.covered, packet);
     Accumulator sum(points, dome);
     std::vector<std::uint64_t> visible(points.covered.size());
     const std::size_t count = dome.size();
@@ -376,6 +455,7 @@ TileLight light_tile(const TilePoints& points, const DomeSamples& dome, Directio
 
     const auto trace_full = [&](std::size_t j) {
         packet.set_direction(dome.directions[j]);
+        std::fill(visible.begin(), visible.end(), 0);
         full.trace(visible);
         statistics.rays += full.size();
         sum.add(j, visible);
@@ -402,44 +482,30 @@ TileLight light_tile(const TilePoints& points, const DomeSamples& dome, Directio
     }
     const double mean_visibility = static_cast<double>(visible_pairs) / static_cast<double>(kPilots * full.size());
 
-    VisibilityGrid grid(points);
     const double tolerance =
         static_cast<double>(*options.tolerance) * std::max(mean_visibility, static_cast<double>(kDarkTile));
-    std::optional<Lattice> chosen;
-    double squared_error = 0.0;
-    const std::vector<std::uint64_t> nothing(points.covered.size(), 0);
-    for (const Lattice& lattice : kLattices) {
-        grid.force(nothing);
-        Trial trial = try_lattice(points, grid, lattice, pilots, full.size(), count);
-        if (std::any_of(trial.anchored.begin(), trial.anchored.end(), [](std::uint64_t row) { return row != 0; })) {
-            grid.force(trial.anchored);
-            trial = try_lattice(points, grid, lattice, pilots, full.size(), count);
-        }
-        if (trial.rays > 0.8 * static_cast<double>(full.size()))
-            break;  // packets of neighbours are faster than scattered ones
-        if (trial.squared_error <= tolerance * tolerance) {
-            chosen = lattice;
-            squared_error = trial.squared_error;
-            break;
-        }
-    }
+    const std::vector<std::uint64_t> features = features_in_light(points, pilots);
+    VisibilityGrid grid(points);
+    const std::optional<Choice> choice = choose_lattice(points, features, grid, pilots, full.size(), count, tolerance);
+    if (choice) grid.set(choice->lattice, features, choice->trial.anchored);
 
-    RaySource rays(points, packet);
+    RaySource rays(points, grid.first_look(), packet);
     std::size_t next_pilot = 0;
     for (std::size_t j = 0; j < count; ++j) {
         if (next_pilot < pilot_index.size() && pilot_index[next_pilot] == j) {
             ++next_pilot;
             continue;
         }
-        if (!chosen) {
+        if (!choice) {
             trace_full(j);
             continue;
         }
         packet.set_direction(dome.directions[j]);
-        statistics.rays += grid.solve(*chosen, threshold_of(j), rays, visible);
+        statistics.rays += grid.solve(threshold_of(j), rays, visible);
         sum.add(j, visible);
     }
-    statistics.squared_error_sum += fixed_point(squared_error * static_cast<double>(full.size()));
+    if (choice)
+        statistics.squared_error_sum += fixed_point(choice->trial.squared_error * static_cast<double>(full.size()));
     statistics.view_factor_sum += fixed_point(mean_visibility * static_cast<double>(full.size()));
     return std::move(sum).light();
 }

@@ -26,10 +26,9 @@ struct TilePoints {
     int height = 0;  // likewise
     std::vector<float> x, y,
         z;  // lifted off the surface, local metres; texels that are not covered repeat the nearest covered one
-    std::vector<std::uint64_t> covered;  // [row]: bit c set where texel c belongs to the surface
-    std::vector<std::uint64_t>
-        is_feature;             // [row]: texels near a place where other geometry touches the chart: always traced
-    std::vector<Vec3f> normal;  // relief charts only, one a texel; else empty
+    std::vector<std::uint64_t> covered;     // [row]: bit c set where texel c belongs to the surface
+    std::vector<std::uint64_t> is_feature;  // [row]: texels near a place where other geometry touches the chart
+    std::vector<Vec3f> normal;              // relief charts only, one a texel; else empty
 
     int texel(int column, int row) const { return row * width + column; }
 
@@ -67,10 +66,10 @@ struct SkyTileStatistics {
 /// The irradiance of every covered texel from the directions of `dome`.
 ///
 /// Full sampling traces each direction from every covered texel. The hierarchy traces, for each direction, the nodes of
-/// a lattice, and halves those cells whose nodes, or whose traced neighbours, do not agree: visibility is 0 or 1, so a
+/// a lattice and the features, and halves those cells whose traced texels do not agree: visibility is 0 or 1, so a
 /// shadow's edge costs its length and the area beside it nothing. A few pilot directions are traced in full first. They
-/// tell (i) which of several lattices keeps the tolerance in this tile at the fewest rays, and (ii) at which texels the
-/// error does not average out over the directions (features thinner than a cell): these are traced always.
+/// tell (i) which of several lattices keeps the tolerance in this tile with the fewest packets, and (ii) at which
+/// texels the error does not average out over the directions: these are traced always.
 TileLight light_tile(const TilePoints& points, const DomeSamples& dome, DirectionPacket& packet,
                      const SkyTileOptions& options, SkyTileStatistics& statistics);
 

@@ -13,17 +13,22 @@ namespace skybake {
 /// How coarsely a direction is looked at.
 struct Lattice {
     int first_cell = 16;  // texels between the nodes that are always traced: 16, 8 or 4
-    int last_cell =
-        1;  // mixed cells of this size are interpolated between their corners instead of being halved again: 1, 2 or 4
+    // Mixed cells of this size are interpolated between their corners instead of being halved again: 1, 2, …
+    // first_cell.
+    int last_cell = 1;
 };
 
-/// Where a visibility comes from: rays, or the stored answer of a pilot direction.
+/// Where a visibility comes from: rays, or the stored answer of a pilot direction. Arrays hold one word a row.
 class VisibilitySource {
   public:
     virtual ~VisibilitySource() = default;
     /// For each set bit of wanted[row], sets that bit of visible[row] when the texel sees the sky and clears it
     /// otherwise. Returns how many bits there were.
     virtual std::size_t look(std::span<const std::uint64_t> wanted, std::span<std::uint64_t> visible) = 0;
+    /// The same for the texels that every direction looks at (VisibilityGrid::first_look).
+    virtual std::size_t look_first(std::span<const std::uint64_t> wanted, std::span<std::uint64_t> visible) {
+        return look(wanted, visible);
+    }
 };
 
 /// The lattice of a tile, made once, and the solution for one direction after another. All texels of a row are one
@@ -32,18 +37,22 @@ class VisibilityGrid {
   public:
     explicit VisibilityGrid(const TilePoints& points);
 
-    /// Sets, beside the tile's features, the texels that every direction must trace: all cells that hold one are halved
-    /// down to it.
-    void force(std::span<const std::uint64_t> texels);
+    /// Chooses the lattice. `anchored`: texels that every direction looks at, beside the first nodes.
+    void set(const Lattice& lattice, std::span<const std::uint64_t> features, std::span<const std::uint64_t> anchored);
 
-    /// Finds the visibility of all covered texels, a bit each. A cell is mixed when its corners differ; its unknown
-    /// corners, the middles of its sides and its centre are looked at, which may make its neighbours mixed, until
-    /// nothing changes; then cells are halved. What lies in cells that are not mixed is taken to be as their corners. A
-    /// texel of a mixed last cell is visible when the corners' visibility, interpolated, is above `threshold`: over
-    /// directions with thresholds spread evenly over [0, 1] it gets the interpolated share. Returns how many texels
-    /// were looked at.
-    std::size_t solve(const Lattice& lattice, float threshold, VisibilitySource& source,
-                      std::span<std::uint64_t> visible);
+    /// What every direction looks at: first nodes and anchored texels.
+    std::span<const std::uint64_t> first_look() const {
+        return std::span(first_).first(static_cast<std::size_t>(points_.height));
+    }
+
+    /// Finds the visibility of all covered texels, a bit each. After the first look come the features in cells with a
+    /// visible corner: what is small and near hides light there. A cell is mixed when two of its known texels differ;
+    /// the middles of its sides and its centre are looked at, which may make its neighbours mixed, until nothing
+    /// changes; then cells are halved. What lies in cells that are not mixed is taken to be as their corners. A mixed
+    /// last cell is halved down to the texel when a feature or an anchored texel lies in it or beside it. Else its
+    /// texels are visible when the corners' visibility, interpolated, is above `threshold`: over directions with
+    /// thresholds spread evenly over [0, 1] they get the interpolated share. Returns how many texels were looked at.
+    std::size_t solve(float threshold, VisibilitySource& source, std::span<std::uint64_t> visible);
 
     /// [row]: the texels that the last solution interpolated.
     std::span<const std::uint64_t> interpolated() const { return interpolated_; }
@@ -54,14 +63,18 @@ class VisibilityGrid {
 
     static int level_of(int cell) { return cell == 16 ? 0 : cell == 8 ? 1 : cell == 4 ? 2 : cell == 2 ? 3 : 4; }
     std::size_t look(VisibilitySource& source, std::span<std::uint64_t> visible);
-    void find_mixed(int cell, std::span<const std::uint64_t> visible, Rows& mixed) const;
+    std::size_t look_at_features(std::span<std::uint64_t> visible, VisibilitySource& source);
+    bool find_mixed(int cell, std::span<const std::uint64_t> visible, const Rows& cells, Rows& mixed) const;
     void fill_next_level(int cell, std::span<std::uint64_t> visible) const;
     void interpolate(int cell, float threshold, const Rows& mixed, std::span<std::uint64_t> visible);
 
     const TilePoints& points_;
+    Lattice lattice_;
     // [level][row]: bit set at a cell's first column and row. Cells without covered texels are never looked into.
-    std::array<Rows, kLevels> in_use_{}, forced_{};
+    std::array<Rows, kLevels> in_use_{};
     std::array<std::uint64_t, kLevels> cell_columns_{};  // first columns of cells
+    Rows first_{}, features_{};
+    std::array<Rows, kLevels> is_halved_{};  // last and smaller cells that are halved, not interpolated, when mixed
     Rows known_{}, wanted_{}, interpolated_{};
 };
 
