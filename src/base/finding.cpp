@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <iterator>
+
 namespace skybake {
 
 const char* name_of(Severity severity) {
@@ -19,17 +21,25 @@ const char* name_of(Severity severity) {
 void FindingLog::add(Finding finding) {
     Entries& entries = by_code_[finding.code];
     entries.count += finding.count;
-    finding.count = 1;
-    if (entries.kept.size() < kKeptPerCode) entries.kept.push_back(std::move(finding));
+    std::pair<std::string, std::string> key(finding.where, finding.what);
+    const auto found = entries.kept.find(key);
+    if (found != entries.kept.end()) {
+        found->second.count += finding.count;
+        return;
+    }
+    // One that falls out never comes back: so many smaller ones are there for good.
+    entries.kept.emplace(std::move(key), std::move(finding));
+    if (entries.kept.size() > kKeptPerCode) entries.kept.erase(std::prev(entries.kept.end()));
 }
 
 void FindingLog::merge(const FindingLog& other) {
     for (const auto& [code, theirs] : other.by_code_) {
-        Entries& entries = by_code_[code];
-        entries.count += theirs.count;
-        for (const Finding& finding : theirs.kept) {
-            if (entries.kept.size() < kKeptPerCode) entries.kept.push_back(finding);
+        std::uint64_t kept = 0;
+        for (const auto& [key, finding] : theirs.kept) {
+            kept += finding.count;
+            add(finding);
         }
+        by_code_[code].count += theirs.count - kept;
     }
 }
 
@@ -37,8 +47,12 @@ std::vector<Finding> FindingLog::list() const {
     std::vector<Finding> all;
     for (const auto& [code, entries] : by_code_) {
         const std::size_t first = all.size();
-        all.insert(all.end(), entries.kept.begin(), entries.kept.end());
-        if (first < all.size()) all[first].count = entries.count - (entries.kept.size() - 1);
+        std::uint64_t kept = 0;
+        for (const auto& [key, finding] : entries.kept) {
+            all.push_back(finding);
+            kept += finding.count;
+        }
+        if (first < all.size()) all[first].count += entries.count - kept;
     }
     return all;
 }
@@ -51,7 +65,7 @@ std::uint64_t FindingLog::count(const std::string& code) const {
 std::uint64_t FindingLog::count(Severity severity) const {
     std::uint64_t sum = 0;
     for (const auto& [code, entries] : by_code_) {
-        if (!entries.kept.empty() && entries.kept.front().severity == severity) sum += entries.count;
+        if (!entries.kept.empty() && entries.kept.begin()->second.severity == severity) sum += entries.count;
     }
     return sum;
 }

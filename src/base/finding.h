@@ -6,6 +6,7 @@
 #include <map>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace skybake {
@@ -24,8 +25,8 @@ struct Finding {
     std::uint64_t count = 1;
 };
 
-/// Collects findings: the first few of each code whole, of all others the number, so that a city with a million faults
-/// stays readable. Not thread-safe: one log a task, merged in a fixed order.
+/// Collects findings: a few of each code whole, of all others the number, so that a city with a million faults stays
+/// readable. What it lists does not hang on the order in which findings came. Not thread-safe: one log a task, merged.
 class FindingLog {
   public:
     static constexpr std::size_t kKeptPerCode = 20;
@@ -33,9 +34,9 @@ class FindingLog {
     void add(Finding finding);
     void merge(const FindingLog& other);
 
-    /// One entry for each kept finding, in order of code and then of arrival. The first entry of a code carries, in
-    /// `count`, how many more there were of that code than are listed, plus itself; so the counts of a code add up to
-    /// their number.
+    /// Findings in order of code, place and fault, equal ones as one with their count; of each code the first
+    /// kKeptPerCode. The first entry of a code carries, in `count`, those that are not listed too; so the counts of a
+    /// code add up to their number.
     std::vector<Finding> list() const;
     /// How many findings there are of the code.
     std::uint64_t count(const std::string& code) const;
@@ -45,7 +46,7 @@ class FindingLog {
 
   private:
     struct Entries {
-        std::vector<Finding> kept;
+        std::map<std::pair<std::string, std::string>, Finding> kept;  // by place and fault
         std::uint64_t count = 0;
     };
     std::map<std::string, Entries> by_code_;

@@ -18,6 +18,7 @@ namespace {
 
 constexpr double kFootBand = 0.3;    // vertices this far above an object's lowest one stand on the ground too. Metres
 constexpr double kBelowFeet = 0.01;  // metres
+constexpr double kLevel = 2.0;       // feet that differ by less may stand on a plane. Metres
 
 /// Vertices at the feet of all objects, thinned to the lowest in each square metre, in a fixed order.
 std::vector<Vec3d> feet_of(const CityModel& city) {
@@ -132,15 +133,19 @@ void add_ground(CityModel& city, GroundChoice choice, double margin_m, FindingLo
     }
     std::vector<Vec3d> feet = feet_of(city);
     if (feet.empty()) return;
+    Box3d foot_box;
+    for (const Vec3d& p : feet) foot_box.extend(p);
+    const double spread = foot_box.size().z;
     if (choice == GroundChoice::none) {
-        findings.add(make_finding("SB501", where,
-                                  "no object is ground: buildings stand in the void, and no light falls on streets."));
+        findings.add(make_finding(
+            "SB501", where,
+            fmt::format("no object is ground: buildings stand in the void, and no light falls on streets. The feet of "
+                        "the buildings differ by {:.1f} m: --ground {} fits.",
+                        spread, spread > kLevel ? "draped" : "plane")));
         return;
     }
     // As wide as all that stands there, not only as its feet.
     Box3d box = extent_of(city);
-    Box3d foot_box;
-    for (const Vec3d& p : feet) foot_box.extend(p);
     CityObject ground;
     ground.id = "skybake-ground";
     ground.type = ObjectType::terrain;
@@ -149,18 +154,22 @@ void add_ground(CityModel& city, GroundChoice choice, double margin_m, FindingLo
     ground.where = where + ": added ground";
     Geometry& g = ground.geometry;
     if (choice == GroundChoice::plane) {
-        const double z = foot_box.lo.z - kBelowFeet;
+        // At the middle foot: at the lowest one, one deep cellar would lift the whole city off its ground.
+        const auto middle = feet.begin() + static_cast<std::ptrdiff_t>(feet.size() / 2);
+        std::nth_element(feet.begin(), middle, feet.end(), [](const Vec3d& a, const Vec3d& b) { return a.z < b.z; });
+        const double z = middle->z - kBelowFeet;
         g.vertices = {{box.lo.x - margin_m, box.lo.y - margin_m, z},
                       {box.hi.x + margin_m, box.lo.y - margin_m, z},
                       {box.hi.x + margin_m, box.hi.y + margin_m, z},
                       {box.lo.x - margin_m, box.hi.y + margin_m, z}};
         add_surface(g, {0, 1, 2, 3});
-        const double spread = foot_box.size().z;
         findings.add(make_finding(
             "SB502", where,
-            fmt::format("a level ground at {:.2f} m was added, {:.0f} m wider than the city; feet of buildings lie up "
-                        "to {:.1f} m above it{}.",
-                        z, margin_m, spread, spread > 2.0 ? ", so that --ground draped fits better" : "")));
+            fmt::format(
+                "a level ground at {:.2f} m was added, {:.0f} m wider than the city; the feet of the buildings lie "
+                "between {:.1f} m below and {:.1f} m above it{}.",
+                z, margin_m, z - foot_box.lo.z, foot_box.hi.z - z,
+                spread > kLevel ? ", so that --ground draped fits better" : "")));
     } else {
         box.lo.z = foot_box.lo.z;
         add_margin(feet, box, std::max(margin_m, 1.0));
