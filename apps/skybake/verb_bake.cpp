@@ -37,6 +37,8 @@ std::vector<std::pair<std::string, std::string>> settings_of(const Options& opti
             {"indirect", options.light.indirect},
             {"albedo", options.light.albedo},
             {"lod", options.city.lod},
+            {"ground", name_of(options.city.ground)},
+            {"ground-margin", fmt::format("{}", options.city.ground_margin_m)},
             {"texel", fmt::format("{}", options.texel_m)},
             {"sampling", options.sampling},
             {"tolerance", fmt::format("{}", options.tolerance)}};

@@ -83,6 +83,7 @@ SceneOptions scene_options(const std::vector<std::pair<std::string, Rgb>>& albed
 }
 
 BakeCityResult bake_city(const BakeCityOptions& options, Progress& progress) {
+    io::check_output_folder(options.output);
     const auto begin = Clock::now();
     BakeCityResult result;
     LoadedCity loaded = load_city(options.files, options.load, progress);

@@ -118,6 +118,18 @@ Geometry drape(const std::vector<Vec3d>& points) {
 
 }  // namespace
 
+const char* name_of(GroundChoice choice) {
+    switch (choice) {
+        case GroundChoice::none:
+            return "none";
+        case GroundChoice::plane:
+            return "plane";
+        case GroundChoice::draped:
+            return "draped";
+    }
+    return "none";
+}
+
 bool has_ground(const CityModel& city) {
     return std::any_of(city.objects.begin(), city.objects.end(),
                        [](const CityObject& o) { return is_ground(o.type) && !o.geometry.is_empty(); });

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -278,6 +279,18 @@ struct Job {
 };
 
 }  // namespace
+
+void check_output_folder(const std::filesystem::path& folder) {
+    std::filesystem::path there = std::filesystem::absolute(folder);
+    std::error_code error;
+    while (!std::filesystem::exists(there, error) && there.has_relative_path()) there = there.parent_path();
+    if (!std::filesystem::is_directory(there, error))
+        throw InputError(
+            fmt::format("{}: cannot be made: {} is no folder. Choose another place.", folder.string(), there.string()));
+    if (access(there.c_str(), W_OK | X_OK) != 0)
+        throw InputError(fmt::format("{}: cannot be written: {}: {}. Choose another place.", folder.string(),
+                                     there.string(), std::generic_category().message(errno)));
+}
 
 WrittenBake write_bake(const std::filesystem::path& folder, const BakeOutput& output, Progress& progress) {
     const Lightmaps& light = output.light;

@@ -70,6 +70,9 @@ struct WrittenBake {
     std::uint64_t bytes = 0;
 };
 
+/// Throws InputError when a bake cannot be written to the folder, before hours of work; makes nothing.
+void check_output_folder(const std::filesystem::path& folder);
+
 /// Writes the whole folder, which is made if it is absent. What an older or a killed bake left in it is removed first,
 /// its manifest before all else, and the new manifest is written last: a folder with a manifest is whole. Other files
 /// in the folder stay. The same bytes for the same output, whatever the number of threads; wall-clock figures of the
