@@ -79,7 +79,7 @@ int main(int argc, char** argv) {
     // The bare loop has a hierarchy of its own, built alike.
     RTCDevice device = rtcNewDevice(nullptr);
     RTCScene bare = rtcNewScene(device);
-    rtcSetSceneFlags(bare, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneFlags(bare, RTC_SCENE_FLAG_NONE);  // as RayScene does
     rtcSetSceneBuildQuality(bare, RTC_BUILD_QUALITY_HIGH);
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
     auto* vertices = static_cast<Vec3f*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,

@@ -162,7 +162,7 @@ void add_ground(CityModel& city, GroundChoice choice, double margin_m, FindingLo
     ground.id = "skybake-ground";
     ground.type = ObjectType::terrain;
     ground.type_name = "TINRelief";
-    ground.lod = "1";
+    ground.lod = std::string("1");
     ground.where = where + ": added ground";
     Geometry& g = ground.geometry;
     if (choice == GroundChoice::plane) {
