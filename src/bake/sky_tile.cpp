@@ -349,14 +349,19 @@ Trial try_lattice(const TilePoints& points, VisibilityGrid& grid, std::span<cons
     return trial;
 }
 
-/// The tile's features, without those that lie in the dark, such as inside a wall between two houses: no pilot sees
-/// them, nor any texel beside them.
-std::vector<std::uint64_t> features_in_light(const TilePoints& points,
-                                             std::span<const std::vector<std::uint64_t>> pilots) {
-    std::vector<std::uint64_t> seen(points.covered.size(), 0), features(points.covered.size(), 0);
+/// Texels that some pilot sees.
+std::vector<std::uint64_t> seen_by(std::span<const std::vector<std::uint64_t>> pilots) {
+    std::vector<std::uint64_t> seen(pilots.front().size(), 0);
     for (const std::vector<std::uint64_t>& pilot : pilots) {
         for (std::size_t row = 0; row < seen.size(); ++row) seen[row] |= pilot[row];
     }
+    return seen;
+}
+
+/// The tile's features, without those that lie in the dark, such as inside a wall between two houses: no pilot sees
+/// them, nor any texel beside them.
+std::vector<std::uint64_t> features_in_light(const TilePoints& points, std::span<const std::uint64_t> seen) {
+    std::vector<std::uint64_t> features(points.covered.size(), 0);
     for (std::size_t row = 0; row < seen.size(); ++row) {
         std::uint64_t near = seen[row];
         if (row > 0) near |= seen[row - 1];
@@ -373,18 +378,19 @@ struct Choice {
 
 /// None: full sampling is the cheapest way to keep the tolerance.
 std::optional<Choice> choose_lattice(const TilePoints& points, std::span<const std::uint64_t> features,
-                                     VisibilityGrid& grid, std::span<const std::vector<std::uint64_t>> pilots,
-                                     std::size_t texel_count, std::size_t direction_count, double tolerance) {
+                                     std::span<const std::uint64_t> seen, VisibilityGrid& grid,
+                                     std::span<const std::vector<std::uint64_t>> pilots, std::size_t texel_count,
+                                     std::size_t direction_count, double tolerance) {
     const std::vector<std::uint64_t> nothing(points.covered.size(), 0);
     std::optional<Choice> best;
     double fewest_packets = kScattered * static_cast<double>((texel_count + kPacket - 1) / kPacket);
     for (const Lattice& lattice : kLattices) {
         if (best && lattice.last_cell < best->lattice.last_cell) break;  // finer ones are dearer
-        grid.set(lattice, features, nothing);
+        grid.set(lattice, features, seen, nothing);
         Trial trial = try_lattice(points, grid, pilots, texel_count, direction_count);
         if (std::any_of(trial.anchored.begin(), trial.anchored.end(), [](std::uint64_t row) { return row != 0; })) {
             std::vector<std::uint64_t> anchored = std::move(trial.anchored);
-            grid.set(lattice, features, anchored);
+            grid.set(lattice, features, seen, anchored);
             trial = try_lattice(points, grid, pilots, texel_count, direction_count);
             trial.anchored = std::move(anchored);
         }
@@ -484,10 +490,12 @@ TileLight light_tile(const TilePoints& points, const DomeSamples& dome, Directio
 
     const double tolerance =
         static_cast<double>(*options.tolerance) * std::max(mean_visibility, static_cast<double>(kDarkTile));
-    const std::vector<std::uint64_t> features = features_in_light(points, pilots);
+    const std::vector<std::uint64_t> seen = seen_by(pilots);
+    const std::vector<std::uint64_t> features = features_in_light(points, seen);
     VisibilityGrid grid(points);
-    const std::optional<Choice> choice = choose_lattice(points, features, grid, pilots, full.size(), count, tolerance);
-    if (choice) grid.set(choice->lattice, features, choice->trial.anchored);
+    const std::optional<Choice> choice =
+        choose_lattice(points, features, seen, grid, pilots, full.size(), count, tolerance);
+    if (choice) grid.set(choice->lattice, features, seen, choice->trial.anchored);
 
     RaySource rays(points, grid.first_look(), packet);
     std::size_t next_pilot = 0;

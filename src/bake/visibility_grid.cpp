@@ -84,15 +84,27 @@ VisibilityGrid::VisibilityGrid(const TilePoints& points) : points_(points) {
 }
 
 void VisibilityGrid::set(const Lattice& lattice, std::span<const std::uint64_t> features,
-                         std::span<const std::uint64_t> anchored) {
+                         std::span<const std::uint64_t> seen, std::span<const std::uint64_t> anchored) {
     lattice_ = lattice;
     std::copy(anchored.begin(), anchored.end(), first_.begin());
     for (std::size_t row = 0; row < features.size(); ++row) features_[row] = features[row] & ~anchored[row];
     const int first = lattice.first_cell;
+    Rows blind{};
     for (int y = 0; y + first < points_.height; y += first) {
         const std::uint64_t cells = in_use_[level_of(first)][y];
         first_[y] |= cells | cells << first;
         first_[y + first] |= cells | cells << first;
+        const std::uint64_t both = seen[y] & seen[y + first];
+        std::uint64_t near_blind = 0;
+        for (std::uint64_t left = cells & ~(both & both >> first); left; left &= left - 1) {
+            const int x = std::countr_zero(left);
+            near_blind |= columns(x, x + first);
+        }
+        for (int row = y; row <= y + first; ++row) blind[row] |= near_blind;
+    }
+    for (int row = 0; row < points_.height; ++row) {
+        first_[row] |= features_[row] & blind[row];
+        features_[row] &= ~blind[row];
     }
     // Features that fill up a packet cost nothing.
     std::size_t nodes = 0, with_features = 0;

@@ -37,10 +37,13 @@ class VisibilityGrid {
   public:
     explicit VisibilityGrid(const TilePoints& points);
 
-    /// Chooses the lattice. `anchored`: texels that every direction looks at, beside the first nodes.
-    void set(const Lattice& lattice, std::span<const std::uint64_t> features, std::span<const std::uint64_t> anchored);
+    /// Chooses the lattice. `seen`: texels that some pilot sees; `anchored`: texels that every direction looks at,
+    /// beside the first nodes.
+    void set(const Lattice& lattice, std::span<const std::uint64_t> features, std::span<const std::uint64_t> seen,
+             std::span<const std::uint64_t> anchored);
 
-    /// What every direction looks at: first nodes and anchored texels.
+    /// What every direction looks at: first nodes, anchored texels, and the features of cells with a blind corner, that
+    /// is one that no pilot sees, such as ground under a house: it says nothing of the alley beside it.
     std::span<const std::uint64_t> first_look() const {
         return std::span(first_).first(static_cast<std::size_t>(points_.height));
     }

@@ -109,9 +109,10 @@ Rgb at(const Baked& baked, const Vec3f& point, const Vec3f& normal) {
 /// The same bounds through charts, tiles and both ways of sampling.
 class AnalyticBake : public testing::TestWithParam<SamplesAndBound> {
   protected:
-    static void expect(const Scene& scene, const std::vector<Vec3f>& points, const Vec3f& normal, float expected) {
+    static void expect(const Scene& scene, const std::vector<Vec3f>& points, const Vec3f& normal, float expected,
+                       float texel_m = 0.5f) {
         for (const std::optional<float> tolerance : {std::optional<float>(), std::optional<float>(0.01f)}) {
-            const Baked baked = bake(scene, 0.5f, uniform_sky(), {GetParam().samples, tolerance});
+            const Baked baked = bake(scene, texel_m, uniform_sky(), {GetParam().samples, tolerance});
             float mean = 0.0f;
             for (const Vec3f& point : points)
                 mean += luminance(at(baked, point, normal)) / static_cast<float>(points.size());
@@ -133,10 +134,10 @@ TEST_P(AnalyticBake, FreeWallGetsHalf) {
 }
 
 TEST_P(AnalyticBake, FootOfALongWallGetsHalf) {
-    // The texel's centre lies 0.25 m before the wall; past the ends of 500 m it sees 3 · 10⁻⁴ of the sky.
-    const float h = 30.0f, d = 0.25f;
+    // The texel's centre lies 0.5 m before the wall; past the ends of 500 m it sees 6 · 10⁻⁴ of the sky.
+    const float h = 30.0f, d = 0.5f;
     expect(QuadScene().ground(20).box({-250, 0, 0}, {250, 1, h}).scene(), {{0.2f, -0.2f, 0}}, {0, 0, 1},
-           0.5f * kOpen * (1.0f + d / std::hypot(d, h)));
+           0.5f * kOpen * (1.0f + d / std::hypot(d, h)), 1.0f);
 }
 
 TEST_P(AnalyticBake, CanyonFloor) {
