@@ -53,17 +53,19 @@ int run_arguments(std::vector<std::string> arguments) {
     try {
         std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
         app.parse(std::move(arguments));
-    } catch (const CLI::ExtrasError&) {
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == 0) return app.exit(error);
+        // A mistyped word explains more than what is missed because of it.
         const std::vector<std::string> extras = app.remaining(true);
-        const std::string typed = extras.empty() ? "" : extras.front().substr(0, extras.front().find('='));
+        if (extras.empty()) {
+            fmt::print(stderr, "skybake: {}\n", error.what());
+            return kWrongUse;
+        }
+        const std::string typed = extras.front().substr(0, extras.front().find('='));
         const bool is_flag = typed.rfind("-", 0) == 0;
         fmt::print(stderr, "skybake: unknown {} '{}'; did you mean '{}'? See skybake {}--help.\n",
                    is_flag ? "flag" : "word", typed, nearest_known(app, typed),
                    app.get_subcommands().empty() ? "" : app.get_subcommands().front()->get_name() + " ");
-        return kWrongUse;
-    } catch (const CLI::ParseError& error) {
-        if (error.get_exit_code() == 0) return app.exit(error);
-        fmt::print(stderr, "skybake: {}\n", error.what());
         return kWrongUse;
     }
     return program.run();

@@ -125,6 +125,8 @@ TEST_F(BakeVerb, WrongUseEndsWithTwoAndSaysWhy) {
         EXPECT_EQ(program.exit_code(), 2);
         EXPECT_THAT(program.err(), HasSubstr(word));
     };
+    expect_error({"bak"}, "'bake'");
+    expect_error({"bake", place_.str("a/town.city.json"), "--texle", "1"}, "'--texel'");
     expect_error({"bake", place_.str("none.city.json"), "-o", place_.str("x"), "--at", "2026-06-21T12:00Z"},
                  "none.city.json");
     expect_error({"bake", place_.str("a/town.city.json"), "-o", place_.str("x")}, "--at");
