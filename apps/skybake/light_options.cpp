@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "city/city_model.h"
 #include "base/nearest_word.h"
+#include "city/city_model.h"
 
 namespace skybake::cli {
 

@@ -37,12 +37,12 @@ enum class ObjectType : std::uint8_t {
 /// What a surface is for the default albedo, the reports and the receivers.
 enum class SurfaceType : std::uint8_t {
     unknown,
-    ground,        // the underside of a building
+    ground,  // the underside of a building
     wall,
     roof,
     closure,
-    floor,         // outer floor
-    ceiling,       // outer ceiling
+    floor,    // outer floor
+    ceiling,  // outer ceiling
     window,
     door,
     terrain,
@@ -79,7 +79,8 @@ struct Surface {
     SurfaceType type = SurfaceType::unknown;
     std::optional<MaterialId> material;
     std::optional<TextureId> texture;
-    std::uint32_t source_index = 0;  // which polygon of the geometry in its file, counted through; part of stable ids and places
+    std::uint32_t source_index =
+        0;  // which polygon of the geometry in its file, counted through; part of stable ids and places
 };
 
 /// Surfaces that belong together: a shell of a solid encloses a volume, a loose set does not.
@@ -90,11 +91,13 @@ struct Shell {
     Kind kind = Kind::loose;
 };
 
-/// Polygons in flat arrays. Ring r is corners [ring_first[r], ring_first[r + 1]); it is not closed (no repeated last corner).
+/// Polygons in flat arrays. Ring r is corners [ring_first[r], ring_first[r + 1]); it is not closed (no repeated last
+/// corner).
 struct Geometry {
-    std::vector<Vec3d> vertices;              // map coordinates, metres
-    std::vector<std::uint32_t> corners;       // indices into vertices
-    std::vector<Vec2f> corner_uv;             // empty, or one a corner; (0, 0) is the image's lower left as in CityJSON and CityGML
+    std::vector<Vec3d> vertices;         // map coordinates, metres
+    std::vector<std::uint32_t> corners;  // indices into vertices
+    std::vector<Vec2f>
+        corner_uv;  // empty, or one a corner; (0, 0) is the image's lower left as in CityJSON and CityGML
     std::vector<std::uint32_t> ring_first{0};  // one more than there are rings
     std::vector<Surface> surfaces;
     std::vector<Shell> shells;  // cover all surfaces, in order
@@ -117,7 +120,7 @@ struct CityModel {
     std::vector<CityObject> objects;
     std::vector<Material> materials;
     std::vector<Texture> textures;
-    std::string crs;  // as the file names it ("EPSG:7415", a URL or a URN); empty when it names none
+    std::string crs;                // as the file names it ("EPSG:7415", a URL or a URN); empty when it names none
     std::vector<std::string> lods;  // all that the files offer, sorted
     std::vector<std::string> files;
     std::optional<Box3d> stated_extent;  // geographicalExtent of the metadata

@@ -126,8 +126,7 @@ inline constexpr std::array kFindingCodes{
                 "Choose a time between sunrise and sunset."},
     FindingCode{"SB603", Severity::info, "published level of the Preetham sky",
                 "Take level=clearsky for numbers that are to be relied on."},
-    FindingCode{"SB604", Severity::warning, "there is no light at all",
-                "Give --at, --sun-direction or another --sky."},
+    FindingCode{"SB604", Severity::warning, "there is no light at all", "Give --at, --sun-direction or another --sky."},
 };
 
 constexpr const FindingCode* find_code(std::string_view code) {

@@ -11,21 +11,22 @@
 
 namespace skybake {
 
-/// Grid north against true north at the city's centre: `convergence_rad` is the azimuth of grid north, clockwise from true north,
-/// so that azimuth_true = azimuth_grid + convergence_rad. (The surveyor's meridian convergence has this sign: positive east of the
-/// central meridian on the northern half.)
+/// Grid north against true north at the city's centre: `convergence_rad` is the azimuth of grid north, clockwise from
+/// true north, so that azimuth_true = azimuth_grid + convergence_rad. (The surveyor's meridian convergence has this
+/// sign: positive east of the central meridian on the northern half.)
 struct Georeference {
     std::optional<Site> site;  // none when the CRS is unknown: the user must give --site
     double convergence_rad = 0.0;
-    std::string crs_name;      // "EPSG:31256 MGI / Austria GK East", or empty
-    std::string crs_code;      // "EPSG:31256", or empty
+    std::string crs_name;  // "EPSG:31256 MGI / Austria GK East", or empty
+    std::string crs_code;  // "EPSG:31256", or empty
 };
 
-/// Brings the city into metres that are true metres and tells where it lies. A projected CRS stays as it is. Geographic and Web
-/// Mercator coordinates are projected to a transverse Mercator about the city's own centre (findings SB301, SB302); a CRS that PROJ
-/// does not know, or none, leaves the coordinates and gives no site (SB303, SB304); so do coordinates outside the CRS's area of use
-/// (SB305). Other projections whose scale is off by more than 0.1 %, feet included, are treated like Web Mercator (SB302). Where the
-/// CRS has its north axis first and the solids are inside out, x and y are exchanged first (SB307). Thread-safe.
+/// Brings the city into metres that are true metres and tells where it lies. A projected CRS stays as it is. Geographic
+/// and Web Mercator coordinates are projected to a transverse Mercator about the city's own centre (findings SB301,
+/// SB302); a CRS that PROJ does not know, or none, leaves the coordinates and gives no site (SB303, SB304); so do
+/// coordinates outside the CRS's area of use (SB305). Other projections whose scale is off by more than 0.1 %, feet
+/// included, are treated like Web Mercator (SB302). Where the CRS has its north axis first and the solids are inside
+/// out, x and y are exchanged first (SB307). Thread-safe.
 Georeference georeference(CityModel& city, FindingLog& findings);
 
 }  // namespace skybake

@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "sky/clear_sky.h"
 #include "base/nearest_word.h"
+#include "sky/clear_sky.h"
 #include "sky/solar_position.h"
 #include "sky/sun_beam.h"
 
