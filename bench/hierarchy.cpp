@@ -48,7 +48,7 @@ Error error_of(const Lightmaps& a, const Lightmaps& reference) {
     return error;
 }
 
-/// Where the hierarchy is off by more than a tenth of the mean: point, normal and signed error of the worst texels.
+/// Where the hierarchy is off by more than a tenth of the mean: point, normal and signed error, the worst first.
 void list_off_texels(const Atlas& atlas, const Lightmaps& fast, const Lightmaps& full, double mean) {
     struct Off {
         double error;
@@ -75,12 +75,12 @@ void list_off_texels(const Atlas& atlas, const Lightmaps& fast, const Lightmaps&
         }
     }
     std::sort(off.begin(), off.end(), [](const Off& a, const Off& b) { return std::abs(a.error) > std::abs(b.error); });
-    for (std::size_t k = 0; k < std::min<std::size_t>(off.size(), 20); ++k) {
-        const Vec3f& n = off[k].chart->normal;
-        const Vec3f& p = off[k].point;
+    for (const Off& texel : off) {
+        const Vec3f& n = texel.chart->normal;
+        const Vec3f& p = texel.point;
         fmt::print(
             "    off by {:+.1f} % at {:.2f} {:.2f} {:.2f}, normal {:.2f} {:.2f} {:.2f}, chart of {} x {} texels\n",
-            100.0 * off[k].error, p.x, p.y, p.z, n.x, n.y, n.z, off[k].chart->size.x, off[k].chart->size.y);
+            100.0 * texel.error, p.x, p.y, p.z, n.x, n.y, n.z, texel.chart->size.x, texel.chart->size.y);
     }
 }
 

@@ -10,7 +10,7 @@ namespace skybake {
 namespace {
 
 constexpr float kEyeHeight = 1.7f;
-// A street sees between a third and nine tenths of the sky: less is a passage, more an open field.
+// A street sees between three and eight tenths of the sky: less is a passage, more an open field.
 constexpr float kStreetMin = 0.3f, kStreetMax = 0.8f;
 // A road may be this much farther from the centre than other ground and is still preferred, metres.
 constexpr float kRoadBonus = 150.0f;

@@ -30,6 +30,13 @@ std::uint64_t gather(std::uint64_t bits, int cell) {
     return all | bits >> cell;
 }
 
+/// The bits [x, x + cell] of every set bit x.
+std::uint64_t spread(std::uint64_t bits, int cell) {
+    std::uint64_t all = bits;
+    for (int step = 1; step < cell; step *= 2) all |= all << step;
+    return all | bits << cell;
+}
+
 /// [corner bits (x, y): 00, 10, 01, 11][row]: which texels of a cell lie above the threshold.
 using EdgeMasks = std::array<std::array<std::uint32_t, 17>, 16>;
 constexpr int kThresholds = 16;
@@ -95,11 +102,7 @@ void VisibilityGrid::set(const Lattice& lattice, std::span<const std::uint64_t> 
         first_[y] |= cells | cells << first;
         first_[y + first] |= cells | cells << first;
         const std::uint64_t both = seen[y] & seen[y + first];
-        std::uint64_t near_blind = 0;
-        for (std::uint64_t left = cells & ~(both & both >> first); left; left &= left - 1) {
-            const int x = std::countr_zero(left);
-            near_blind |= columns(x, x + first);
-        }
+        const std::uint64_t near_blind = spread(cells & ~(both & both >> first), first);
         for (int row = y; row <= y + first; ++row) blind[row] |= near_blind;
     }
     for (int row = 0; row < points_.height; ++row) {
@@ -144,11 +147,7 @@ std::size_t VisibilityGrid::look_at_features(std::span<std::uint64_t> visible, V
         std::uint64_t seen = visible[y] | visible[y + cell];
         seen = (seen | seen >> cell) & in_use_[level_of(cell)][y];
         if (!seen) continue;
-        std::uint64_t columns_seen = 0;
-        for (std::uint64_t left = seen; left; left &= left - 1) {
-            const int x = std::countr_zero(left);
-            columns_seen |= columns(x, x + cell);
-        }
+        const std::uint64_t columns_seen = spread(seen, cell);
         for (int row = y; row <= y + cell; ++row) any |= wanted_[row] |= features_[row] & columns_seen & ~known_[row];
     }
     return any ? look(source, visible) : 0;

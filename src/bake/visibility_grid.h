@@ -49,12 +49,13 @@ class VisibilityGrid {
     }
 
     /// Finds the visibility of all covered texels, a bit each. After the first look come the features in cells with a
-    /// visible corner: what is small and near hides light there. A cell is mixed when two of its known texels differ;
-    /// the middles of its sides and its centre are looked at, which may make its neighbours mixed, until nothing
-    /// changes; then cells are halved. What lies in cells that are not mixed is taken to be as their corners. A mixed
-    /// last cell is halved down to the texel when a feature or an anchored texel lies in it or beside it. Else its
-    /// texels are visible when the corners' visibility, interpolated, is above `threshold`: over directions with
-    /// thresholds spread evenly over [0, 1] they get the interpolated share. Returns how many texels were looked at.
+    /// visible corner: what is small and near hides light there. Then level by level: a cell is mixed when two of its
+    /// known texels differ; the middles of its sides and its centre are looked at, and its quarters, and those of its
+    /// neighbours that a middle contradicts, are the next level's. What lies in cells that are not mixed is taken to be
+    /// as their corners. A mixed last cell is halved down to the texel when a feature or an anchored texel lies in it
+    /// or beside it. Else its texels are visible when the corners' visibility, interpolated, is above `threshold`: over
+    /// directions with thresholds spread evenly over [0, 1] they get the interpolated share. Returns how many texels
+    /// were looked at.
     std::size_t solve(float threshold, VisibilitySource& source, std::span<std::uint64_t> visible);
 
     /// [row]: the texels that the last solution interpolated.
