@@ -176,6 +176,7 @@ TEST(BrokenFiles, EachEndsInItsFindingOrItsError) {
         {"val3dity/test_file_format/index901.obj", {}, "is Wavefront OBJ"},
         {"val3dity/test_cjseq/notransform.city.jsonl", {}, "#/transform is missing"},
         {"val3dity/test_empty/completely_empty.json", {}, "the file is empty"},
+        {"val3dity/test_empty/empty_primitive.json", {"SB101"}, ""},
         {"val3dity/test_cityjson/emptygeom.json", {"SB117"}, ""},
         {"val3dity/gml/csol1.gml", {}, "is CityGML"},
         {"cjval/texture1.city.json", {"SB403"}, ""},

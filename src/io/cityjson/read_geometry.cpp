@@ -203,6 +203,7 @@ class GeometryBuilder {
 
     void read_solid(const element& shells, const Beside& beside) {
         if (!shells.is_array()) return fault("boundaries of a solid are no array of shells; the solid is left out.");
+        if (elements_of(shells).empty()) return fault("a solid has no shells; it is left out.");
         Shell::Kind kind = Shell::Kind::outer;
         for_each(shells, beside, [&](const element& shell, const Beside& inner) {
             read_shell(shell, inner, kind);
