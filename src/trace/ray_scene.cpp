@@ -53,7 +53,7 @@ RayScene::RayScene(const Scene& scene) : embree_(std::make_unique<Embree>()) {
     embree_->device = rtcNewDevice(nullptr);
     if (!embree_->device) throw std::runtime_error("Embree cannot start on this processor");
     embree_->scene = rtcNewScene(embree_->device);
-    // Not RTC_SCENE_FLAG_ROBUST: it costs a third of the rays per second and changes 4e-6 of the light
+    // Not RTC_SCENE_FLAG_ROBUST: it costs a quarter of the rays per second and changes 1e-5 of the light
     // (docs/decisions/0006-rays-without-the-robust-flag.md).
     rtcSetSceneBuildQuality(embree_->scene, RTC_BUILD_QUALITY_HIGH);
 
