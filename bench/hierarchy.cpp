@@ -1,5 +1,5 @@
-// Rays against error: full sampling with fewer directions, and the hierarchy with several tolerances, both against a
-// converged full bake, and the hierarchy against full sampling of its own directions.
+// Rays against error: full sampling with fewer directions, projected shadows, and the hierarchy with several
+// tolerances, all against a converged full bake, and the latter two against full sampling of their own directions.
 //   bench_hierarchy CITY TEXEL_M [RADIUS_M] [REFERENCE_DIRECTIONS]
 #include <cmath>
 
@@ -48,7 +48,7 @@ Error error_of(const Lightmaps& a, const Lightmaps& reference) {
     return error;
 }
 
-/// Where the hierarchy is off by more than a tenth of the mean: point, normal and signed error, the worst first.
+/// Where a bake is off by more than a tenth of the mean: point, normal and signed error, the worst first.
 void list_off_texels(const Atlas& atlas, const Lightmaps& fast, const Lightmaps& full, double mean) {
     struct Off {
         double error;
@@ -98,11 +98,11 @@ int main(int argc, char** argv) {
     const RayScene rays(scene);
     const std::vector<Daylight> instants = bench::midsummer_noon();
     SilentProgress silent;
-    const auto bake = [&](int directions, std::optional<float> tolerance, BakeReport& report) {
-        return bake_lightmaps(scene, atlas, rays, instants, {directions, tolerance}, silent, report);
+    const auto bake = [&](const BakeOptions& options, BakeReport& report) {
+        return bake_lightmaps(scene, atlas, rays, instants, options, silent, report);
     };
     BakeReport report;
-    const Lightmaps reference = bake(reference_directions, std::nullopt, report);
+    const Lightmaps reference = bake({reference_directions, SkySampling::full}, report);
     fmt::print("{} triangles, {:.3f} million texels of {} m; reference: full sampling, {} directions, {:.0f} s\n",
                scene.triangles.size(), static_cast<double>(atlas.texel_count()) * 1e-6, texel_m, reference_directions,
                report.seconds.sky);
@@ -111,22 +111,27 @@ int main(int argc, char** argv) {
                "RMSE to reference, %", "to the same directions: RMSE %", "max %, texels off by 10 % of the mean");
     for (const int directions : {128, 256, 512, 1024, 2048}) {
         BakeReport full_report;
-        const Lightmaps full = bake(directions, std::nullopt, full_report);
+        const Lightmaps full = bake({directions, SkySampling::full}, full_report);
         const Error error = error_of(full, reference);
         fmt::print("{:>12} {:>10} {:>12.1f} {:>9.2f} | {:>22.3f} |\n", "full", directions,
                    static_cast<double>(full_report.rays.sky) / texels, full_report.seconds.sky,
                    100.0 * error.rmse_over_mean);
         if (directions < 512) continue;
-        for (const float tolerance : {0.02f, 0.01f, 0.005f}) {
+        const auto print_row = [&](const std::string& name, const BakeOptions& options, bool lists_off) {
             BakeReport fast_report;
-            const Lightmaps fast = bake(directions, tolerance, fast_report);
+            const Lightmaps fast = bake(options, fast_report);
             const Error own = error_of(fast, full);
             fmt::print(
                 "{:>12} {:>10} {:>12.1f} {:>9.2f} | {:>22.3f} | {:>30.3f} {:>9.1f} {} of {} ({:.1f} % of the rays)\n",
-                fmt::format("tol {}", tolerance), directions, static_cast<double>(fast_report.rays.sky) / texels,
-                fast_report.seconds.sky, 100.0 * error_of(fast, reference).rmse_over_mean, 100.0 * own.rmse_over_mean,
-                100.0 * own.max_over_mean, own.off, own.texels, 100.0 * fast_report.evaluated_fraction);
-            if (directions == 1024 && tolerance == 0.01f) list_off_texels(atlas, fast, full, own.mean);
+                name, directions, static_cast<double>(fast_report.rays.sky) / texels, fast_report.seconds.sky,
+                100.0 * error_of(fast, reference).rmse_over_mean, 100.0 * own.rmse_over_mean, 100.0 * own.max_over_mean,
+                own.off, own.texels, 100.0 * fast_report.evaluated_fraction);
+            if (lists_off) list_off_texels(atlas, fast, full, own.mean);
+        };
+        print_row("projected", {directions, SkySampling::projected}, directions == 1024);
+        for (const float tolerance : {0.02f, 0.01f, 0.005f}) {
+            print_row(fmt::format("tol {}", tolerance), {directions, SkySampling::hierarchical, tolerance},
+                      directions == 1024 && tolerance == 0.01f);
         }
     }
 }

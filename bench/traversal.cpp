@@ -119,18 +119,21 @@ int main(int argc, char** argv) {
     SilentProgress silent;
     fmt::print("{} triangles, {} charts, {:.2f} million texels of {} m, {}\n", scene.triangles.size(),
                atlas.charts.size(), static_cast<double>(atlas.texel_count()) * 1e-6, texel_m, rays.isa());
-    fmt::print("{:>28} {:>28} {:>7} {:>34}\n", "bare loop, million rays/s", "full bake, million rays/s", "share",
-               "hierarchy: s, share of rays, of time");
+    fmt::print("{:>28} {:>28} {:>7} {:>34} {:>34}\n", "bare loop, million rays/s", "full bake, million rays/s", "share",
+               "hierarchy: s, share of rays, of time", "projected: s, share of rays, of time");
     std::vector<double> shares;
     for (int round = 0; round < rounds; ++round) {
         const double limit = bare_loop(bare, charts);
-        BakeReport full, hierarchy;
-        bake_lightmaps(scene, atlas, rays, instants, {1024, std::nullopt}, silent, full);
-        bake_lightmaps(scene, atlas, rays, instants, {1024, 0.01f}, silent, hierarchy);
+        BakeReport full, hierarchy, projected;
+        bake_lightmaps(scene, atlas, rays, instants, {1024, SkySampling::full}, silent, full);
+        bake_lightmaps(scene, atlas, rays, instants, {1024, SkySampling::hierarchical}, silent, hierarchy);
+        bake_lightmaps(scene, atlas, rays, instants, {1024, SkySampling::projected}, silent, projected);
         shares.push_back(full.rays_per_second / limit);
-        fmt::print("{:28.1f} {:28.1f} {:6.1f}% {:16.2f} {:8.1f}% {:7.1f}%\n", limit * 1e-6, full.rays_per_second * 1e-6,
-                   100.0 * shares.back(), hierarchy.seconds.sky, 100.0 * hierarchy.evaluated_fraction,
-                   100.0 * hierarchy.seconds.sky / full.seconds.sky);
+        fmt::print("{:28.1f} {:28.1f} {:6.1f}% {:16.2f} {:8.1f}% {:7.1f}% {:16.2f} {:8.1f}% {:7.1f}%\n", limit * 1e-6,
+                   full.rays_per_second * 1e-6, 100.0 * shares.back(), hierarchy.seconds.sky,
+                   100.0 * hierarchy.evaluated_fraction, 100.0 * hierarchy.seconds.sky / full.seconds.sky,
+                   projected.seconds.sky, 100.0 * projected.evaluated_fraction,
+                   100.0 * projected.seconds.sky / full.seconds.sky);
     }
     std::sort(shares.begin(), shares.end());
     fmt::print("median share of the bare loop: {:.1f} %\n", 100.0 * shares[shares.size() / 2]);

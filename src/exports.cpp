@@ -1,6 +1,7 @@
 // The public library: include/skybake/skybake.h over the layers of src.
 #include "skybake/skybake.h"
 
+#include <algorithm>
 #include <atomic>
 
 #include "api/bake_city.h"
@@ -93,8 +94,11 @@ BakeResult bake(const Bake& settings) {
         options.output = settings.output;
         options.texel_m = static_cast<float>(settings.texel_m);
         options.bake.sky_samples = settings.sky_samples;
-        options.bake.tolerance =
-            settings.full_sampling ? std::nullopt : std::optional(static_cast<float>(settings.tolerance));
+        const auto sampling = std::find(kSkySamplingNames.begin(), kSkySamplingNames.end(), settings.sampling);
+        if (sampling == kSkySamplingNames.end())
+            throw InputError("bake: sampling is \"projected\", \"hierarchical\" or \"full\".");
+        options.bake.sampling = static_cast<SkySampling>(sampling - kSkySamplingNames.begin());
+        options.bake.tolerance = static_cast<float>(settings.tolerance);
         options.daylight.sky = parse_sky(settings.sky);
         options.daylight.sun = parse_sun_shape(settings.sun);
         for (const std::string& instant : settings.at)

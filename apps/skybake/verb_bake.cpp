@@ -21,7 +21,7 @@ struct Options {
     LightOptions light;
     std::filesystem::path output;
     float texel_m = 0.5f;
-    std::string sampling = "hierarchical";
+    std::string sampling{kSkySamplingNames[0]};
     float tolerance = 0.01f;
 };
 
@@ -56,7 +56,9 @@ int run(const CommonOptions& common, const Options& options) {
     bake.albedo = parse_albedo(options.light.albedo);
     bake.texel_m = options.texel_m;
     bake.bake.sky_samples = options.light.sky_samples;
-    bake.bake.tolerance = options.sampling == "full" ? std::nullopt : std::optional(options.tolerance);
+    const auto name = std::find(kSkySamplingNames.begin(), kSkySamplingNames.end(), options.sampling);
+    bake.bake.sampling = static_cast<SkySampling>(name - kSkySamplingNames.begin());
+    bake.bake.tolerance = options.tolerance;
     bake.seed = common.seed;
     bake.version = SKYBAKE_VERSION;
     bake.settings = settings_of(options);
@@ -137,9 +139,12 @@ void add_bake(CLI::App& app, Program& program) {
     verb->add_option("--texel", options->texel_m, "length of a lightmap texel, metres")
         ->capture_default_str()
         ->check(CLI::Range(0.01, 100.0));
-    verb->add_option("--sampling", options->sampling, "hierarchical, or full: every direction from every texel")
+    verb->add_option(
+            "--sampling", options->sampling,
+            "projected: the shadows of everything on each surface, exact; hierarchical: rays from some texels, "
+            "the paper's way; full: a ray from every texel in every direction")
         ->capture_default_str()
-        ->check(CLI::IsMember({"hierarchical", "full"}));
+        ->check(CLI::IsMember(std::vector<std::string>(kSkySamplingNames.begin(), kSkySamplingNames.end())));
     verb->add_option("--tolerance", options->tolerance, "error that the hierarchy may add to the skylight, relative")
         ->capture_default_str()
         ->check(CLI::Range(0.0, 1.0));

@@ -61,8 +61,8 @@ struct Bake {
     std::string lod;              // empty: the highest of each object
     double texel_m = 0.5;
     int sky_samples = 1024;
-    bool full_sampling = false;
-    double tolerance = 0.01;
+    std::string sampling = "projected";  // or "hierarchical" or "full", as --sampling
+    double tolerance = 0.01;             // of hierarchical sampling, relative
     /// Called now and then with the stage's name and the share done, 0…1, from any thread; return false to stop.
     std::function<bool(const std::string& stage, double share)> progress;
 };

@@ -45,8 +45,9 @@ io::BakeDescription describe(const BakeCityOptions& options, const LoadedCity& l
     description.convergence_rad = loaded.georeference.convergence_rad;
     description.seed = options.seed;
     description.sky_samples = static_cast<std::uint64_t>(options.bake.sky_samples);
-    description.sampling = options.bake.tolerance ? "hierarchical" : "full";
-    description.tolerance = static_cast<double>(options.bake.tolerance.value_or(0.0f));
+    description.sampling = kSkySamplingNames[static_cast<std::size_t>(options.bake.sampling)];
+    description.tolerance =
+        options.bake.sampling == SkySampling::hierarchical ? static_cast<double>(options.bake.tolerance) : 0.0;
     description.settings = options.settings;
     description.inputs = options.files;
     description.isa = rays.isa();

@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cmath>
 #include <mutex>
+#include <optional>
 #include <tuple>
 
 #include "atlas/chart_samples.h"
@@ -23,7 +24,6 @@ namespace skybake {
 
 namespace {
 
-constexpr int kTile = TilePoints::kMaxTexels;
 // A texel is a feature where geometry stands within this many texels of its point: a chimney's foot, a dormer's wall,
 // an eave. Box town at 0.25 m, tolerance 1 %: reach 0 gives 8 % of the rays, error 1.3 % of the mean, worst texel 44 %;
 // 0.75 gives 14 %, 0.37 %, 8 %; 1.5 gives 15 %, 0.36 %, 6.5 %.
@@ -88,6 +88,7 @@ class Baker {
     Baker(const Scene& scene, const Atlas& atlas, const RayScene& rays, std::span<const Daylight> instants,
           const BakeOptions& options, Progress& progress)
         : scene_(scene), atlas_(atlas), rays_(rays), options_(options), progress_(progress), sampler_(instants) {
+        if (options.sampling == SkySampling::projected) occluders_.emplace(scene);
         lightmaps_.pages.resize(atlas.pages.size());
         for (std::size_t p = 0; p < atlas.pages.size(); ++p) {
             const std::size_t count = texels_of(atlas.pages[p]);
@@ -150,30 +151,40 @@ class Baker {
     void light_group(const ChartGroup& group) {
         if (progress_.stop_requested()) throw Interrupted();
         const Chart& first = atlas_.charts[group.charts.front().index()];
-        const DomeSamples dome = sky_clock_.measure([&] {
-            return first.min_normal_cosine >= 1.0f
-                       ? sampler_.sample(first.normal, options_.sky_samples)
-                       : sampler_.sample_relief(first.normal, first.min_normal_cosine, options_.sky_samples);
-        });
+        const SkyDirections directions = sky_clock_.measure([&] { return directions_for(first); });
         tbb::parallel_for(
-            std::size_t{0}, group.charts.size(), [&](std::size_t i) { light_chart(group.charts[i], dome); },
+            std::size_t{0}, group.charts.size(), [&](std::size_t i) { light_chart(group.charts[i], directions); },
             tbb::simple_partitioner());
     }
 
-    void light_chart(ChartId id, const DomeSamples& dome) {
+    SkyDirections directions_for(const Chart& chart) const {
+        DomeSamples dome = chart.min_normal_cosine >= 1.0f
+                               ? sampler_.sample(chart.normal, options_.sky_samples)
+                               : sampler_.sample_relief(chart.normal, chart.min_normal_cosine, options_.sky_samples);
+        std::vector<std::uint32_t> bundled, others;
+        for (std::uint32_t j = 0; j < dome.size(); ++j) {
+            const bool is_projected =
+                options_.sampling == SkySampling::projected && can_project(chart.normal, dome.directions[j]);
+            (is_projected ? bundled : others).push_back(j);
+        }
+        DirectionBundles bundles(dome.directions, bundled);
+        return {std::move(dome), std::move(bundles), std::move(others)};
+    }
+
+    void light_chart(ChartId id, const SkyDirections& directions) {
         const Chart& chart = atlas_.charts[id.index()];
         const ChartSamples samples = finish_clock_.measure([&] { return sample_chart(scene_, chart); });
         ChartLight light;
         const std::size_t count = samples.position.size();
         light.sky.assign(lightmaps_.instants.size(), std::vector<Rgb>(count, Rgb(0.0f)));
         light.sky_view_factor.assign(count, 0.0f);
-        const int columns = (chart.size.x + kTile - 1) / kTile, rows = (chart.size.y + kTile - 1) / kTile;
+        const int columns = tiles_in(chart.size.x), rows = tiles_in(chart.size.y);
         tbb::parallel_for(
             0, columns * rows,
             [&](int tile) {
                 if (progress_.stop_requested()) throw Interrupted();
                 sky_clock_.measure(
-                    [&] { light_sky_tile(chart, samples, dome, tile % columns, tile / columns, light); });
+                    [&] { light_sky_tile(chart, samples, directions, tile % columns, tile / columns, light); });
             },
             tbb::simple_partitioner());
 
@@ -190,7 +201,8 @@ class Baker {
         }
         finish_clock_.measure([&] {
             std::uint64_t ray_count = 0;
-            const std::vector<std::uint8_t> buried = find_buried(scene_, chart, samples, light, dome, rays_, ray_count);
+            const std::vector<std::uint8_t> buried =
+                find_buried(scene_, chart, samples, light, directions.dome, rays_, ray_count);
             buried_rays_ += ray_count;
             std::vector<LightmapLayer*> layers;
             for (BakedInstant& instant : lightmaps_.instants) layers.push_back(&instant.pages[chart.page.index()]);
@@ -199,12 +211,17 @@ class Baker {
         progress_.advance(count);
     }
 
-    void light_sky_tile(const Chart& chart, const ChartSamples& samples, const DomeSamples& dome, int tile_column,
-                        int tile_row, ChartLight& light) {
+    int tiles_in(int size) const {
+        const int largest =
+            options_.sampling == SkySampling::projected ? ProjectionTile::kMaxSize : TilePoints::kMaxTexels;
+        return (size + largest - 1) / largest;
+    }
+
+    void light_sky_tile(const Chart& chart, const ChartSamples& samples, const SkyDirections& directions,
+                        int tile_column, int tile_row, ChartLight& light) {
         // Tiles of about equal size: a strip of one texel would cost as much overhead as a whole tile.
-        const auto cut = [](int size, int index) {
-            const int tiles = (size + kTile - 1) / kTile;
-            return static_cast<int>(static_cast<std::int64_t>(size) * index / tiles);
+        const auto cut = [this](int size, int index) {
+            return static_cast<int>(static_cast<std::int64_t>(size) * index / tiles_in(size));
         };
         const int column0 = cut(chart.size.x, tile_column), column1 = cut(chart.size.x, tile_column + 1);
         const int row0 = cut(chart.size.y, tile_row), row1 = cut(chart.size.y, tile_row + 1);
@@ -213,8 +230,11 @@ class Baker {
             return std::max((texels - 1 + TilePoints::kCell - 1) / TilePoints::kCell, 1) * TilePoints::kCell + 1;
         };
         TilePoints points;
-        points.width = whole_cells(columns);
-        points.height = whole_cells(rows);
+        const bool is_hierarchical = options_.sampling == SkySampling::hierarchical;
+        points.width = is_hierarchical ? whole_cells(columns) : columns;
+        points.height = is_hierarchical ? whole_cells(rows) : rows;
+        points.frame = {chart.origin + static_cast<float>(column0) * chart.u + static_cast<float>(row0) * chart.v,
+                        chart.u, chart.v, chart.normal};
         const std::size_t count = static_cast<std::size_t>(points.width) * static_cast<std::size_t>(points.height);
         points.x.resize(count);
         points.y.resize(count);
@@ -222,7 +242,10 @@ class Baker {
         points.covered.assign(static_cast<std::size_t>(points.height), 0);
         points.is_feature.assign(static_cast<std::size_t>(points.height), 0);
         const bool is_relief = chart.min_normal_cosine < 1.0f;
-        if (is_relief) points.normal.assign(count, chart.normal);
+        if (is_relief) {
+            points.normal.assign(count, chart.normal);
+            points.triangle.assign(count, 0);
+        }
         for (int row = 0; row < rows; ++row) {
             for (int column = 0; column < columns; ++column) {
                 const std::size_t i = samples.index(column0 + column, row0 + row);
@@ -233,19 +256,23 @@ class Baker {
                 points.x[t] = p.x;
                 points.y[t] = p.y;
                 points.z[t] = p.z;
-                if (is_relief) points.normal[t] = normal;
+                if (is_relief) {
+                    points.normal[t] = normal;
+                    points.triangle[t] = samples.triangle[i];
+                }
                 points.covered[row] |= 1ull << column;
             }
         }
         if (std::all_of(points.covered.begin(), points.covered.end(), [](std::uint64_t row) { return row == 0; }))
             return;
         DirectionPacket packet(rays_);
-        if (options_.tolerance) {
+        if (is_hierarchical) {
             find_features(chart, points, packet);
             points.extend();
         }
         SkyTileStatistics statistics;
-        const TileLight tile = light_tile(points, dome, packet, {options_.tolerance}, statistics);
+        const TileLight tile = light_tile(points, directions, occluders_ ? &*occluders_ : nullptr, packet,
+                                          {options_.sampling, options_.tolerance}, statistics);
         for (int row = 0; row < rows; ++row) {
             for (int column = 0; column < columns; ++column) {
                 const std::size_t i = samples.index(column0 + column, row0 + row);
@@ -292,6 +319,7 @@ class Baker {
     BakeOptions options_;
     Progress& progress_;
     DomeSampler sampler_;
+    std::optional<OccluderTree> occluders_;  // for SkySampling::projected
     Lightmaps lightmaps_;
     std::mutex statistics_mutex_;
     SkyTileStatistics statistics_;

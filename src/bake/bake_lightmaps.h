@@ -1,20 +1,21 @@
 // The bake: light of every texel of an atlas.
 #pragma once
 
-#include <optional>
 #include <span>
 
 #include "atlas/atlas.h"
 #include "bake/bake_report.h"
 #include "bake/lightmap.h"
+#include "bake/sky_sampling.h"
 #include "base/progress.h"
 #include "trace/ray_scene.h"
 
 namespace skybake {
 
 struct BakeOptions {
-    int sky_samples = 1024;                  // directions a texel
-    std::optional<float> tolerance = 0.01f;  // of the hierarchy, relative (SkyTileOptions); none: full sampling
+    int sky_samples = 1024;  // directions a texel
+    SkySampling sampling = SkySampling::projected;
+    float tolerance = 0.01f;  // of the hierarchy, relative (SkyTileOptions)
 };
 
 /// Sun and sky of all instants for all texels. The dome is traced once and weighed for each instant; the sun is traced

@@ -8,17 +8,10 @@
 #include <bit>
 #include <cmath>
 
+#include "bake/sky_accumulator.h"
 #include "bake/visibility_grid.h"
 #include "base/check.h"
 #include "base/low_discrepancy.h"
-
-// Each copy does the same operations in the same order, without fused multiply-add: the same bits on every processor.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__) && \
-    !defined(__SANITIZE_ADDRESS__)
-#define SKYBAKE_WIDE_LOOP __attribute__((target_clones("avx512f", "avx2", "default")))
-#else
-#define SKYBAKE_WIDE_LOOP
-#endif
 
 namespace skybake {
 
@@ -42,28 +35,6 @@ constexpr float kDarkTile = 0.1f;
 constexpr std::array<Lattice, 9> kLattices{{{16, 4}, {8, 4}, {4, 4}, {16, 2}, {8, 2}, {4, 2}, {16, 1}, {8, 1}, {4, 1}}};
 // Packets of scattered texels take longer than those of neighbours: a lattice must save so many.
 constexpr double kScattered = 0.6;
-
-/// acc[i] += w × v[i].
-SKYBAKE_WIDE_LOOP void add_scaled(float* __restrict acc, const float* __restrict v, float w, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i) acc[i] += w * v[i];
-}
-
-/// v[i] = visibility × max(0, n · d): what relief charts weigh a direction with.
-SKYBAKE_WIDE_LOOP void apply_cosine(float* __restrict v, const float* __restrict nx, const float* __restrict ny,
-                                    const float* __restrict nz, float dx, float dy, float dz, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i) {
-        const float cosine = nx[i] * dx + ny[i] * dy + nz[i] * dz;
-        v[i] *= cosine > 0.0f ? cosine : 0.0f;
-    }
-}
-
-/// One float a texel from one bit a texel.
-SKYBAKE_WIDE_LOOP void expand_row(float* __restrict v, std::uint64_t bits, int width) {
-    const std::uint32_t low = static_cast<std::uint32_t>(bits), high = static_cast<std::uint32_t>(bits >> 32);
-    const int low_width = std::min(width, 32);
-    for (int x = 0; x < low_width; ++x) v[x] = static_cast<float>(low >> x & 1u);
-    for (int x = 32; x < width; ++x) v[x] = static_cast<float>(high >> (x - 32) & 1u);
-}
 
 /// Listed texels in blocks of 4 × 4, so that a packet's rays start side by side; traced for one direction after
 /// another.
@@ -193,100 +164,6 @@ class PilotSource final : public VisibilitySource {
   private:
     std::span<const std::uint64_t> truth_;
     std::size_t packets_ = 0;
-};
-
-/// Sums of light over the directions.
-class Accumulator {
-  public:
-    Accumulator(const TilePoints& points, const DomeSamples& dome)
-        : points_(points),
-          dome_(dome),
-          count_(static_cast<std::size_t>(points.width) * static_cast<std::size_t>(points.height)),
-          visibility_(count_),
-          view_factor_(count_, 0.0f) {
-        sums_.assign(3 * dome.weights.size(), std::vector<float>(count_, 0.0f));
-        open_.assign(3 * dome.weights.size() + 1, Vec3d(0.0));
-        if (points.normal.empty()) return;
-        for (const Vec3f& n : points.normal) {
-            nx_.push_back(n.x);
-            ny_.push_back(n.y);
-            nz_.push_back(n.z);
-            axis_ += n;
-        }
-        axis_ = glm::normalize(axis_);
-        float min_cosine = 1.0f;
-        for (const Vec3f& n : points.normal) min_cosine = std::min(min_cosine, glm::dot(n, axis_));
-        horizon_sine_ = std::sqrt(std::max(0.0f, 1.0f - min_cosine * min_cosine));
-    }
-
-    void add(std::size_t direction, std::span<const std::uint64_t> visible) {
-        std::uint64_t any_visible = 0, any_hidden = 0;
-        for (int row = 0; row < points_.height; ++row) {
-            any_visible |= visible[row];
-            any_hidden |= visible[row] ^ points_.covered[row];
-        }
-        if (!any_visible) return;
-        const Vec3f& d = dome_.directions[direction];
-        const bool is_relief = !nx_.empty();
-        if (!any_hidden && (!is_relief || glm::dot(d, axis_) > horizon_sine_)) {
-            // All texels see it, and none from behind: what it adds is one vector for all, and each texel's cosine
-            // comes at the end.
-            const Vec3d v = is_relief ? Vec3d(d) : Vec3d(1.0, 0.0, 0.0);
-            open_.back() += static_cast<double>(dome_.view_factor_weight[direction]) * v;
-            for (std::size_t k = 0; k < dome_.weights.size(); ++k) {
-                for (int c = 0; c < 3; ++c)
-                    open_[3 * k + static_cast<std::size_t>(c)] +=
-                        static_cast<double>(dome_.weights[k][direction][c]) * v;
-            }
-            return;
-        }
-        for (int row = 0; row < points_.height; ++row)
-            expand_row(&visibility_[static_cast<std::size_t>(points_.texel(0, row))], visible[row], points_.width);
-        if (is_relief) {
-            apply_cosine(visibility_.data(), nx_.data(), ny_.data(), nz_.data(), d.x, d.y, d.z, count_);
-        }
-        add_scaled(view_factor_.data(), visibility_.data(), dome_.view_factor_weight[direction], count_);
-        for (std::size_t k = 0; k < dome_.weights.size(); ++k) {
-            for (int c = 0; c < 3; ++c) {
-                const float weight = dome_.weights[k][direction][c];
-                if (weight != 0.0f)
-                    add_scaled(sums_[3 * k + static_cast<std::size_t>(c)].data(), visibility_.data(), weight, count_);
-            }
-        }
-    }
-
-    TileLight light() && {
-        TileLight light;
-        light.sky.assign(dome_.weights.size(), std::vector<Rgb>(count_));
-        for (std::size_t k = 0; k < dome_.weights.size(); ++k) {
-            for (std::size_t i = 0; i < count_; ++i) {
-                const Vec3d n = nx_.empty() ? Vec3d(1.0, 0.0, 0.0) : Vec3d(nx_[i], ny_[i], nz_[i]);
-                for (int c = 0; c < 3; ++c) {
-                    const std::size_t channel = 3 * k + static_cast<std::size_t>(c);
-                    light.sky[k][i][c] =
-                        static_cast<float>(static_cast<double>(sums_[channel][i]) + glm::dot(n, open_[channel]));
-                }
-            }
-        }
-        light.sky_view_factor = std::move(view_factor_);
-        for (std::size_t i = 0; i < count_; ++i) {
-            const Vec3d n = nx_.empty() ? Vec3d(1.0, 0.0, 0.0) : Vec3d(nx_[i], ny_[i], nz_[i]);
-            light.sky_view_factor[i] += static_cast<float>(glm::dot(n, open_.back()));
-        }
-        return light;
-    }
-
-  private:
-    const TilePoints& points_;
-    const DomeSamples& dome_;
-    std::size_t count_;
-    std::vector<float> visibility_, view_factor_;
-    std::vector<std::vector<float>> sums_;  // [3 instant + channel][texel]
-    std::vector<Vec3d> open_;  // [3 instant + channel], and the view factor's: of directions that every texel sees
-    // Relief: normals, their mean, and the sine of their largest angle to it.
-    std::vector<float> nx_, ny_, nz_;
-    Vec3f axis_{0.0f};
-    float horizon_sine_ = 0.0f;
 };
 
 /// Thresholds of successive directions, spread evenly (base 3: the directions' own numbers go by base 2).
@@ -448,12 +325,13 @@ void SkyTileStatistics::add(const SkyTileStatistics& other) {
     texels += other.texels;
 }
 
-TileLight light_tile(const TilePoints& points, const DomeSamples& dome, DirectionPacket& packet,
-                     const SkyTileOptions& options, SkyTileStatistics& statistics) {
-    SKYBAKE_CHECK_LE(points.width, TilePoints::kMaxTexels);
-    SKYBAKE_CHECK_LE(points.height, TilePoints::kMaxTexels);
+TileLight light_tile(const TilePoints& points, const SkyDirections& directions, const OccluderTree* occluders,
+                     DirectionPacket& packet, const SkyTileOptions& options, SkyTileStatistics& statistics) {
+    SKYBAKE_CHECK_LE(points.width, TilePoints::kMaxSize);
+    SKYBAKE_CHECK_LE(points.height, TilePoints::kMaxSize);
+    const DomeSamples& dome = directions.dome;
     PreparedTexels full(points, points.covered, packet);
-    Accumulator sum(points, dome);
+    SkyAccumulator sum(points, dome);
     std::vector<std::uint64_t> visible(points.covered.size());
     const std::size_t count = dome.size();
     statistics.pairs += count * full.size();
@@ -467,7 +345,24 @@ TileLight light_tile(const TilePoints& points, const DomeSamples& dome, Directio
         sum.add(j, visible);
     };
 
-    if (!options.tolerance || full.size() <= static_cast<std::size_t>(kSmallTile) || count < 4 * kPilots) {
+    if (options.sampling == SkySampling::projected) {
+        ShadowProjector projector(*occluders, points);
+        for (std::size_t b = 0; b < directions.bundles.size(); ++b) {
+            const std::span<const std::uint32_t> bundle = directions.bundles[b];
+            projector.set_bundle(dome.directions, bundle);
+            for (const std::uint32_t j : bundle) {
+                if (projector.find_visible(dome.directions[j], visible)) {
+                    sum.add(j, visible);
+                } else {
+                    trace_full(j);
+                }
+            }
+        }
+        for (const std::uint32_t j : directions.not_bundled) trace_full(j);
+        return std::move(sum).light();
+    }
+    if (options.sampling == SkySampling::full || full.size() <= static_cast<std::size_t>(kSmallTile) ||
+        count < 4 * kPilots) {
         for (std::size_t j = 0; j < count; ++j) trace_full(j);
         return std::move(sum).light();
     }
@@ -489,7 +384,7 @@ TileLight light_tile(const TilePoints& points, const DomeSamples& dome, Directio
     const double mean_visibility = static_cast<double>(visible_pairs) / static_cast<double>(kPilots * full.size());
 
     const double tolerance =
-        static_cast<double>(*options.tolerance) * std::max(mean_visibility, static_cast<double>(kDarkTile));
+        static_cast<double>(options.tolerance) * std::max(mean_visibility, static_cast<double>(kDarkTile));
     const std::vector<std::uint64_t> seen = seen_by(pilots);
     const std::vector<std::uint64_t> features = features_in_light(points, seen);
     VisibilityGrid grid(points);

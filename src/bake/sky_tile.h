@@ -3,17 +3,24 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "bake/shadow_projection.h"
+#include "bake/sky_sampling.h"
 #include "base/rgb.h"
 #include "base/vec.h"
 #include "sky/dome_sampling.h"
+#include "trace/occluder_tree.h"
 #include "trace/ray_scene.h"
 
 namespace skybake {
+
+/// A tile's place: texel (0, 0) has its centre at origin + u / 2 + v / 2. See Chart.
+struct TileFrame {
+    Vec3f origin{0.0f}, u{1.0f, 0.0f, 0.0f}, v{0.0f, 1.0f, 0.0f}, normal{0.0f, 0.0f, 1.0f};
+};
 
 /// Points of up to 49 × 49 texels: three cells of 16 a side, and their far corners. Arrays have width × height entries,
 /// row 0 on top.
@@ -29,6 +36,8 @@ struct TilePoints {
     std::vector<std::uint64_t> covered;     // [row]: bit c set where texel c belongs to the surface
     std::vector<std::uint64_t> is_feature;  // [row]: texels near a place where other geometry touches the chart
     std::vector<Vec3f> normal;              // relief charts only, one a texel; else empty
+    std::vector<std::uint32_t> triangle;    // relief charts only: what the texel lies on
+    TileFrame frame;
 
     int texel(int column, int row) const { return row * width + column; }
 
@@ -45,9 +54,17 @@ struct TileLight {
 };
 
 struct SkyTileOptions {
+    SkySampling sampling = SkySampling::projected;
     /// Root-mean-square error, relative to the tile's light, that the hierarchy may add to the same directions traced
-    /// in full; none: every texel traces every direction.
-    std::optional<float> tolerance = 0.01f;
+    /// in full.
+    float tolerance = 0.01f;
+};
+
+/// What all tiles of charts of one normal share.
+struct SkyDirections {
+    DomeSamples dome;
+    DirectionBundles bundles;                // of those that can be projected: for SkySampling::projected, else empty
+    std::vector<std::uint32_t> not_bundled;  // the others
 };
 
 /// Sums over tiles; adding is exact, so the order does not matter.
@@ -63,14 +80,17 @@ struct SkyTileStatistics {
     void add(const SkyTileStatistics& other);
 };
 
-/// The irradiance of every covered texel from the directions of `dome`.
+/// The irradiance of every covered texel from the directions.
 ///
-/// Full sampling traces each direction from every covered texel. The hierarchy traces, for each direction, the nodes of
+/// Full sampling traces each direction from every covered texel. Projection finds the same visibility without rays but
+/// for the few directions that it cannot do (ShadowProjector). The hierarchy traces, for each direction, the nodes of
 /// a lattice and the features, and halves those cells whose traced texels do not agree: visibility is 0 or 1, so a
 /// shadow's edge costs its length and the area beside it nothing. A few pilot directions are traced in full first. They
 /// tell (i) which of several lattices keeps the tolerance in this tile with the fewest packets, and (ii) at which
 /// texels the error does not average out over the directions: these are traced always.
-TileLight light_tile(const TilePoints& points, const DomeSamples& dome, DirectionPacket& packet,
-                     const SkyTileOptions& options, SkyTileStatistics& statistics);
+///
+/// `occluders` is read by projection alone.
+TileLight light_tile(const TilePoints& points, const SkyDirections& directions, const OccluderTree* occluders,
+                     DirectionPacket& packet, const SkyTileOptions& options, SkyTileStatistics& statistics);
 
 }  // namespace skybake

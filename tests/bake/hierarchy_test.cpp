@@ -36,22 +36,22 @@ Scene box_town() {
     return town.scene();
 }
 
-Lightmaps bake(const Scene& scene, const Atlas& atlas, std::optional<float> tolerance, BakeReport& report) {
+Lightmaps bake(const Scene& scene, const Atlas& atlas, SkySampling sampling, BakeReport& report) {
     const RayScene rays(scene);
     SilentProgress silent;
     const std::vector<Daylight> instants{
         {"noon",
          UniformSky{1000.0f},
          {glm::normalize(Vec3f(0.3f, -0.6f, 0.7f)), Rgb(50000.0f), 700.0f, 0.00465f, SunShape::point}}};
-    return bake_lightmaps(scene, atlas, rays, instants, {1024, tolerance}, silent, report);
+    return bake_lightmaps(scene, atlas, rays, instants, {1024, sampling}, silent, report);
 }
 
 TEST(Hierarchy, KeepsItsToleranceAndSavesRays) {
     const Scene scene = box_town();
     const Atlas atlas = build_atlas(scene, {0.25f});
     BakeReport full_report, report;
-    const Lightmaps full = bake(scene, atlas, std::nullopt, full_report);
-    const Lightmaps fast = bake(scene, atlas, 0.01f, report);
+    const Lightmaps full = bake(scene, atlas, SkySampling::full, full_report);
+    const Lightmaps fast = bake(scene, atlas, SkySampling::hierarchical, report);
     double error2 = 0.0, sum = 0.0, count = 0.0, worst = 0.0;
     for (std::size_t p = 0; p < full.pages.size(); ++p) {
         for (std::size_t i = 0; i < full.pages[p].state.size(); ++i) {
@@ -80,7 +80,7 @@ TEST(Hierarchy, SameBitsForAnyNumberOfThreads) {
     for (const std::size_t threads : {1u, 2u, 7u}) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
         BakeReport report;
-        bakes.push_back(bake(scene, atlas, 0.01f, report));
+        bakes.push_back(bake(scene, atlas, SkySampling::hierarchical, report));
     }
     for (std::size_t b = 1; b < bakes.size(); ++b) {
         for (std::size_t p = 0; p < bakes[0].pages.size(); ++p) {
