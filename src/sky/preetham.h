@@ -5,18 +5,9 @@
 
 #include "base/vec.h"
 #include "sky/colour.h"
+#include "sky/five_parameter_sky.h"
 
 namespace skybake {
-
-/// scale (1 + A e^{B/cos θ}) (1 + C e^{D γ} + E cos² γ): θ from the zenith, γ from the sun.
-struct PerezDistribution {
-    double a = 0.0;
-    double b = 0.0;
-    double c = 0.0;
-    double d = 0.0;
-    double e = 0.0;
-    double scale = 0.0;
-};
 
 /// A Preetham sky for one turbidity and sun; made by preetham_sky, evaluated in any number of directions.
 struct PreethamSky {
@@ -42,6 +33,9 @@ PreethamSky scaled_to(PreethamSky sky, double illuminance_lx);
 
 /// Illuminance of the open horizontal plane by the whole sky, lx; quadrature error below 1e-4.
 double horizontal_illuminance(const PreethamSky& sky);
+
+/// CIE 1931 chromaticity (x, y) in a unit direction above the horizon.
+Vec2d chromaticity(const PreethamSky& sky, const Vec3d& direction);
 
 /// Luminance (cd m⁻²) with its colour in a unit direction; black below the horizon.
 Xyz sky_xyz(const PreethamSky& sky, const Vec3d& direction);
