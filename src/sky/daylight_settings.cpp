@@ -169,6 +169,9 @@ std::vector<Daylight> make_daylights(const DaylightSettings& settings, const std
                           "Take level=clearsky for numbers that are to be relied on."});
         }
     }
+    if (const auto* image = std::get_if<ImageSettings>(&settings.sky)) {
+        for (const Finding& finding : image->findings) findings.add(finding);
+    }
     if (is_dark(settings.sky, has_sun && settings.sun != SunShape::none)) {
         findings.add({"SB604", Severity::warning, "--sky " + to_text(settings.sky),
                       "there is neither sky nor sun: all is dark.", "Give --at, --sun-direction or another --sky."});

@@ -6,7 +6,9 @@
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
+#include "base/finding.h"
 #include "sky/cie_sky.h"
 #include "sky/image_sky.h"
 
@@ -72,6 +74,7 @@ struct ImageSettings {
     double turbidity = kDefaultTurbidity;           // of the beam only
     /// The picture as the sky is to be: for whoever reads files to fill in (prepared_image, api/load_sky_image.h).
     std::shared_ptr<const SkyImage> image = nullptr;
+    std::vector<Finding> findings = {};  // what reading it found; make_daylights reports them
 };
 using SkySettings = std::variant<PreethamSettings, UniformSkySettings, NoSkySettings, PerezSettings, CieSettings,
                                  Cie1994Settings, ImageSettings>;
