@@ -88,8 +88,16 @@ std::optional<CutSun> cut_sun(SkyImage& image) {
         std::max_element(image.pixels.begin(), image.pixels.begin() + static_cast<std::ptrdiff_t>(sky_pixels),
                          [](const Rgb& a, const Rgb& b) { return luminance(a) < luminance(b); });
     const int index = static_cast<int>(brightest - image.pixels.begin());
+    // A sun that saturates the film is a plateau: its middle counts, not its first pixel.
+    const float half = 0.5f * luminance(*brightest);
+    const Vec3d peak = direction_of(image, index % image.width, index / image.width);
+    Vec3d middle(0.0);
+    for_pixels_within(image, peak, kRingRadius, [&](std::size_t i, int row, double) {
+        if (luminance(image.pixels[i]) < half) return;
+        middle += direction_of(image, static_cast<int>(i) % image.width, row) * solid_angle(image, row);
+    });
     CutSun cut;
-    cut.direction = direction_of(image, index % image.width, index / image.width);
+    cut.direction = glm::normalize(middle);
 
     Vec3d ring(0.0);
     double weight = 0.0;

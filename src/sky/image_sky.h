@@ -40,14 +40,14 @@ SkyImage scaled(SkyImage image, double factor);
 
 /// What cut_sun found and did.
 struct CutSun {
-    Vec3d direction{0.0, 0.0, 1.0};  // of the brightest pixel, azimuth from the left edge of the picture
+    Vec3d direction{0.0, 0.0, 1.0};  // of the sun's middle, azimuth from the left edge of the picture
     double removed_normal_lx = 0.0;  // illuminance of a plane that faces it, by what was taken away
     int changed_pixels = 0;
 };
 
-/// Takes the sun out of the picture: of the pixels within 5° of the brightest one, those more than twice as bright as
-/// the mean of the ring from 5° to 7.5° around it get twice that mean, in its colour. Nothing when no pixel is: then
-/// there is no sun.
+/// Takes the sun out of the picture: of the pixels within 5° of the middle of the brightest ones, those more than
+/// twice as bright as the mean of the ring from 5° to 7.5° around it get twice that mean, in its colour. Nothing when
+/// no pixel is: then there is no sun.
 std::optional<CutSun> cut_sun(SkyImage& image);
 
 }  // namespace skybake
