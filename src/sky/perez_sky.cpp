@@ -115,8 +115,11 @@ PerezSky perez_sky(const PerezWeather& weather, const Vec3d& sun_direction) {
     const double integral = horizontal_integral(sky.luminance, sky.sun_direction.z);
     sky.efficacy_lm_w = state.diffuse_efficacy_lm_w;
     sky.luminance.scale = integral > 0.0 ? weather.dhi * state.diffuse_efficacy_lm_w / integral : 0.0;
-    sky.colour = sky_colour(turbidity_of_beam(weather.dni, zenith, weather.distance_au), sky.sun_direction,
-                            clear_share_of(clearness, zenith, weather.distance_au));
+    // What dims the beam under broken clouds is clouds; the blue between them is that of air no hazier than this.
+    const double clear_share = clear_share_of(clearness, zenith, weather.distance_au);
+    const double haziest = 3.0 + 4.0 * clear_share;
+    sky.colour = sky_colour(std::min(turbidity_of_beam(weather.dni, zenith, weather.distance_au), haziest),
+                            sky.sun_direction, clear_share);
     return sky;
 }
 

@@ -116,7 +116,9 @@ Sky with_level(Sky sky, const Settings& settings, const CieAir& air, const SeenS
             air.clouds == Clouds::overcast ? overcast_illuminance(sun.elevation_rad) : broken_illuminance(sun);
     }
     if (!settings.dhi_w_m2) illuminance_lx = std::max(illuminance_lx, dusk_illuminance(sun));
-    sky.colour = sky_colour(air.turbidity.value_or(kDefaultTurbidity), sun.direction, air.clear_share);
+    // The blue between clouds is that of clear air, however little the clouds leave of the sun.
+    const double turbidity = settings.turbidity || air.clouds == Clouds::none ? *air.turbidity : kDefaultTurbidity;
+    sky.colour = sky_colour(turbidity, sun.direction, air.clear_share);
     return settings.zenith_cd_m2 ? with_zenith(sky, *settings.zenith_cd_m2) : scaled_to(sky, illuminance_lx);
 }
 
