@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sky/spectral_tables.h"
+
 namespace skybake {
 
 namespace {
@@ -81,6 +83,27 @@ Xyz sky_xyz(const PreethamSky& sky, const Vec3d& direction) {
     if (!(luminance > 0.0)) return Xyz(0.0);
     const Vec2d xy = chromaticity(sky, direction);
     return xyz_from_luminance(luminance, xy.x, xy.y);
+}
+
+std::array<double, kSkyWavelengths> sky_spectrum(const PreethamSky& sky, const Vec3d& direction) {
+    std::array<double, kSkyWavelengths> spectrum{};
+    const double luminance = sky_xyz(sky, direction).y;
+    if (!(luminance > 0.0)) return spectrum;
+    const Vec2d xy = chromaticity(sky, direction);
+    const double m = 0.0241 + 0.2562 * xy.x - 0.7341 * xy.y;
+    const double m1 = (-1.3515 - 1.7703 * xy.x + 5.9114 * xy.y) / m;
+    const double m2 = (0.0300 - 31.4424 * xy.x + 30.0717 * xy.y) / m;
+    const auto observer = standard_observer();
+    double sum = 0.0;
+    for (std::size_t i = 0; i < spectrum.size(); ++i) {
+        const double lambda_nm = kFirstLambdaNm + kLambdaStepNm * static_cast<double>(i);
+        spectrum[i] = std::max(0.0, daylight_component(0, lambda_nm) + m1 * daylight_component(1, lambda_nm) +
+                                        m2 * daylight_component(2, lambda_nm));
+        sum += spectrum[i] * observer[i][1];
+    }
+    const double k = luminance / (kMaxLuminousEfficacy * kLambdaStepNm * sum);
+    for (double& value : spectrum) value *= k;
+    return spectrum;
 }
 
 }  // namespace skybake

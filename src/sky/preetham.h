@@ -3,6 +3,8 @@
 // the model fails).
 #pragma once
 
+#include <array>
+
 #include "base/vec.h"
 #include "sky/colour.h"
 #include "sky/five_parameter_sky.h"
@@ -39,5 +41,13 @@ Vec2d chromaticity(const PreethamSky& sky, const Vec3d& direction);
 
 /// Luminance (cd m⁻²) with its colour in a unit direction; black below the horizon.
 Xyz sky_xyz(const PreethamSky& sky, const Vec3d& direction);
+
+/// 380…780 nm in steps of 5 nm, as standard_observer().
+inline constexpr std::size_t kSkyWavelengths = 81;
+
+/// Spectral radiance in a unit direction, W m⁻² sr⁻¹ nm⁻¹: the model's xyY as CIE daylight, k (S0 + M1 S1 + M2 S2)
+/// (appendix A.5), with k such that its luminance is the model's. Far from white (low sun) the sum turns negative at
+/// some wavelengths: those are 0, and k makes up for them. Zeros below the horizon.
+std::array<double, kSkyWavelengths> sky_spectrum(const PreethamSky& sky, const Vec3d& direction);
 
 }  // namespace skybake
