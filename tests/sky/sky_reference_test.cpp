@@ -13,6 +13,7 @@
 #include "sky/perez_sky.h"
 #include "sky/reference_table.h"
 #include "sky/solar_position.h"
+#include "sky/solar_terms.h"
 #include "sky/spectral_tables.h"
 #include "sky/sun_beam.h"
 #include "test_data.h"
@@ -456,6 +457,46 @@ TEST(SkyReference, PreethamIntegrals) {
                               row.number(columns[i]), row.text("id"));
         }
     }
+}
+
+// Truth: the periodic terms that pvlib and freespa agree on, all 258 of them, number by number.
+TEST(SkyReference, SolarTerms) {
+    const auto path = test_data("reference/spa_terms.csv");
+    SKYBAKE_NEEDS_DATA(path);
+    Worst worst("NREL SPA, periodic terms", 0.0);
+    const auto series_of = [](const std::string& name) -> std::span<const PeriodicTerm> {
+        const std::size_t power = static_cast<std::size_t>(name[1] - '0');
+        if (name[0] == 'L') return heliocentric_longitude_terms()[power];
+        if (name[0] == 'B') return heliocentric_latitude_terms()[power];
+        return sun_distance_terms()[power];
+    };
+    std::size_t rows = 0;
+    for (const ReferenceRow& row : read_reference(path)) {
+        const std::string& name = row.text("series");
+        const std::size_t i = static_cast<std::size_t>(row.number("i"));
+        ++rows;
+        if (name == "NUT") {
+            const NutationTerm& term = nutation_terms()[i];
+            const char* columns[9] = {"A_or_Y0", "B_or_Y1", "C_or_Y2", "Y3", "Y4", "a", "b", "c", "d"};
+            const double values[9] = {double(term.y[0]),
+                                      double(term.y[1]),
+                                      double(term.y[2]),
+                                      double(term.y[3]),
+                                      double(term.y[4]),
+                                      term.a,
+                                      term.b,
+                                      term.c,
+                                      term.d};
+            for (int k = 0; k < 9; ++k) worst.absolute(values[k], row.number(columns[k]), name + " " + row.text("i"));
+            continue;
+        }
+        ASSERT_LT(i, series_of(name).size());
+        const PeriodicTerm& term = series_of(name)[i];
+        worst.absolute(term.a, row.number("A_or_Y0"), name + " " + row.text("i"));
+        worst.absolute(term.b, row.number("B_or_Y1"), name + " " + row.text("i"));
+        worst.absolute(term.c, row.number("C_or_Y2"), name + " " + row.text("i"));
+    }
+    EXPECT_EQ(rows, 258u);
 }
 
 }  // namespace
