@@ -80,6 +80,11 @@ PerezState perez_state(const PerezWeather& weather, double sun_zenith_rad) {
     }
     state.direct_efficacy_lm_w =
         direct_luminous_efficacy(state.sky.bin, state.sky.brightness, zenith, weather.precipitable_water_cm);
+    // What dims the beam under broken clouds is clouds; the blue between them, and the sun, have the colour of clear
+    // air.
+    state.clear_share =
+        clear_share_of(std::clamp(state.sky.clearness, 1.0, kPerezMostClearness), zenith, weather.distance_au);
+    state.turbidity = std::min(turbidity_of_beam(dni, zenith, weather.distance_au), 3.0 + 4.0 * state.clear_share);
     return state;
 }
 
@@ -115,11 +120,7 @@ PerezSky perez_sky(const PerezWeather& weather, const Vec3d& sun_direction) {
     const double integral = horizontal_integral(sky.luminance, sky.sun_direction.z);
     sky.efficacy_lm_w = state.diffuse_efficacy_lm_w;
     sky.luminance.scale = integral > 0.0 ? weather.dhi * state.diffuse_efficacy_lm_w / integral : 0.0;
-    // What dims the beam under broken clouds is clouds; the blue between them is that of air no hazier than this.
-    const double clear_share = clear_share_of(clearness, zenith, weather.distance_au);
-    const double haziest = 3.0 + 4.0 * clear_share;
-    sky.colour = sky_colour(std::min(turbidity_of_beam(weather.dni, zenith, weather.distance_au), haziest),
-                            sky.sun_direction, clear_share);
+    sky.colour = sky_colour(state.turbidity, sky.sun_direction, state.clear_share);
     return sky;
 }
 

@@ -28,11 +28,14 @@ struct PerezSky {
     SkyColour colour;
 };
 
-/// What the weather is to the model, before its clamps; and the efficacies, lm W⁻¹.
+/// What the weather is to the model, before its clamps; the efficacies, lm W⁻¹; and what the colour of sky and beam is
+/// made from.
 struct PerezState {
     PerezClass sky;
     double diffuse_efficacy_lm_w = 115.0;
     double direct_efficacy_lm_w = 0.0;
+    double clear_share = 0.0;  // of the sky's colour
+    double turbidity = 3.0;    // that of the beam, but no hazier than 3 overcast … 7 cloudless
 };
 
 /// The ranges of clearness ε and brightness Δ that the model was fitted to; outside, perez_sky takes the nearer end.

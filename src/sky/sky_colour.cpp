@@ -9,7 +9,7 @@ SkyColour sky_colour(double turbidity, const Vec3d& sun_direction, double clear_
 }
 
 Xyz coloured(const SkyColour& colour, double luminance, const Vec3d& direction) {
-    const Xyz white = xyz_from_luminance(luminance, 0.3127, 0.3290);
+    const Xyz white = luminance * Xyz(0.95047, 1.0, 1.08883);  // D65 as Rec. 709 has it: a grey stays grey
     if (colour.clear_share <= 0.0) return white;
     const Vec2d xy = chromaticity(colour.clear, direction);
     const Xyz blue = xyz_from_luminance(luminance, xy.x, xy.y);

@@ -186,21 +186,25 @@ Beam beam_of(const PerezSettings& settings, const SeenSun& sun) {
     if (sun.elevation_rad <= 0.0) return {};
     const PerezState state = perez_state(
         {settings.dni_w_m2, settings.dhi_w_m2, sun.distance_au, settings.precipitable_water_cm}, sun.zenith_rad());
-    const double turbidity = turbidity_of_beam(settings.dni_w_m2, sun.zenith_rad(), sun.distance_au);
-    return {tinted_beam(turbidity, sun, settings.dni_w_m2 * state.direct_efficacy_lm_w), settings.dni_w_m2};
+    return {tinted_beam(state.turbidity, sun, settings.dni_w_m2 * state.direct_efficacy_lm_w), settings.dni_w_m2};
+}
+/// A sun behind thin clouds is dimmed as by haze, but not reddened.
+Beam veiled_beam(const CieAir& air, const SeenSun& sun) {
+    if (!air.turbidity) return {};
+    Beam beam = clear_beam(*air.turbidity, sun);
+    if (air.clouds == Clouds::broken)
+        beam.normal_illuminance =
+            tinted_beam(std::min(*air.turbidity, kDefaultTurbidity), sun, beam.normal_illuminance.y);
+    return beam;
 }
 Beam beam_of(const CieSettings& settings, const SeenSun& sun) {
-    const CieAir air = air_of(settings);
-    return air.turbidity ? clear_beam(*air.turbidity, sun) : Beam{};
+    return veiled_beam(air_of(settings), sun);
 }
 Beam beam_of(const Cie1994Settings& settings, const SeenSun& sun) {
-    const CieAir air = air_of(settings);
-    if (!air.turbidity) return {};
-    const Beam clear = clear_beam(*air.turbidity, sun);
-    if (settings.level != Cie1994Level::gensky || !(clear.normal_illuminance.y > 0.0)) return clear;
-    const double illuminance_lx = gensky_sun_illuminance(settings.type, sun.elevation_rad);
-    return {tinted_beam(*air.turbidity, sun, illuminance_lx),
-            clear.dni_w_m2 * illuminance_lx / clear.normal_illuminance.y};
+    Beam beam = veiled_beam(air_of(settings), sun);
+    if (settings.level != Cie1994Level::gensky || !(beam.normal_illuminance.y > 0.0)) return beam;
+    const double factor = gensky_sun_illuminance(settings.type, sun.elevation_rad) / beam.normal_illuminance.y;
+    return {beam.normal_illuminance * factor, beam.dni_w_m2 * factor};
 }
 Beam beam_of(const ImageSettings& settings, const SeenSun& sun) {
     return settings.sun == SunInImage::cut ? clear_beam(settings.turbidity, sun) : Beam{};
