@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "api/load_sky_image.h"
 #include "base/error.h"
 #include "base/nearest_word.h"
 #include "city/city_model.h"
@@ -55,11 +56,7 @@ void add_daylight_options(CLI::App* verb, LightOptions& options) {
         ->group(group)
         ->type_name("AZ,EL")
         ->excludes("--at");
-    verb->add_option("--sky", options.sky,
-                     "preetham:turbidity=T,level=clearsky|published|dhi=W; uniform:luminance=CD_M2; none")
-        ->group(group)
-        ->type_name("MODEL")
-        ->capture_default_str();
+    verb->add_option("--sky", options.sky, kSkyForms)->group(group)->type_name("MODEL")->capture_default_str();
 }
 
 void add_light_options(CLI::App* verb, LightOptions& options) {
@@ -83,7 +80,10 @@ void add_light_options(CLI::App* verb, LightOptions& options) {
         ->type_name("ALBEDO");
 }
 
-DaylightSettings daylight_settings_of(const LightOptions& options) {
+namespace {
+
+/// All but the picture of an image sky.
+DaylightSettings parsed_settings(const LightOptions& options) {
     DaylightSettings settings;
     settings.sky = parse_sky(options.sky);
     settings.sun = parse_sun_shape(options.sun);
@@ -94,16 +94,24 @@ DaylightSettings daylight_settings_of(const LightOptions& options) {
     return settings;
 }
 
+}  // namespace
+
+DaylightSettings daylight_settings_of(const LightOptions& options) {
+    DaylightSettings settings = parsed_settings(options);
+    load_sky_image(settings.sky);
+    return settings;
+}
+
 std::optional<Site> site_of(const LightOptions& options, const std::optional<Site>& site_from_crs) {
     return options.site.empty() ? site_from_crs : parse_site(options.site);
 }
 
 void check_light_options(const LightOptions& options) {
-    const DaylightSettings settings = daylight_settings_of(options);
+    const DaylightSettings settings = parsed_settings(options);
     site_of(options, std::nullopt);
     parse_albedo(options.albedo);
     const bool has_sun = !settings.instants.empty() || settings.sun_direction.has_value();
-    if (!has_sun) {
+    if (!has_sun && needs_sun(settings.sky)) {
         FindingLog unheard;  // only for the errors: what is found is reported when the daylight is made
         make_daylights(settings, std::nullopt, 0.0, unheard);
     }

@@ -36,6 +36,7 @@ void add_light_options(CLI::App* verb, LightOptions& options);
 /// after reading the city.
 void check_light_options(const LightOptions& options);
 
+/// The options parsed, and the picture of an image sky read. Throws InputError.
 DaylightSettings daylight_settings_of(const LightOptions& options);
 /// --site, or else what the city's CRS says, if anything.
 std::optional<Site> site_of(const LightOptions& options, const std::optional<Site>& site_from_crs);

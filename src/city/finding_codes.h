@@ -127,6 +127,11 @@ inline constexpr std::array kFindingCodes{
     FindingCode{"SB603", Severity::info, "published level of the Preetham sky",
                 "Take level=clearsky for numbers that are to be relied on."},
     FindingCode{"SB604", Severity::warning, "there is no light at all", "Give --at, --sun-direction or another --sky."},
+    FindingCode{"SB605", Severity::warning, "weather is outside of what the Perez sky knows",
+                "Check the irradiances against the hour of the day (W/m²)."},
+    FindingCode{"SB606", Severity::warning, "there is no sun in the picture of the sky", "Take sun=keep."},
+    FindingCode{"SB607", Severity::warning, "picture of the sky has impossible values",
+                "Repair the picture: every channel is finite and not negative."},
 };
 
 constexpr const FindingCode* find_code(std::string_view code) {

@@ -2,41 +2,16 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 #include "base/finding.h"
 #include "base/site.h"
 #include "sky/daylight.h"
+#include "sky/sky_settings.h"
 #include "sky/utc_time.h"
 
 namespace skybake {
-
-/// Where the Preetham sky takes its absolute level from.
-enum class SkyLevel {
-    clearsky,   // the diffuse irradiance of a clear sky of the same turbidity (sky/clear_sky.h)
-    published,  // the paper's own zenith luminance
-    dhi         // a diffuse horizontal irradiance that the user gives
-};
-
-/// Turbidity of the sun's beam where the sky model has none of its own.
-inline constexpr double kDefaultTurbidity = 3.0;
-
-struct NoSkySettings {
-    double turbidity = kDefaultTurbidity;  // of the beam only
-};
-struct UniformSkySettings {
-    double luminance_cd_m2 = 1000.0;
-    double turbidity = kDefaultTurbidity;  // of the beam only
-};
-struct PreethamSettings {
-    double turbidity = kDefaultTurbidity;
-    SkyLevel level = SkyLevel::clearsky;
-    double dhi_w_m2 = 0.0;  // for SkyLevel::dhi
-};
-using SkySettings = std::variant<PreethamSettings, UniformSkySettings, NoSkySettings>;
 
 /// Angles in radians; azimuth clockwise from true north, elevation above the horizon as the sun is seen.
 struct SunDirection {
@@ -51,13 +26,6 @@ struct DaylightSettings {
     std::optional<SunDirection> sun_direction;  // instead of them
 };
 
-/// The value of --sky: "preetham:turbidity=3,level=clearsky|published|dhi=W", "uniform:luminance=CD_M2", "none"; the
-/// last two take a turbidity for the beam. Throws InputError for unknown models (saying which there are), unknown keys
-/// (naming the nearest) and values out of range.
-SkySettings parse_sky(std::string_view text);
-/// The same settings written out whole, as parse_sky reads them: for manifests.
-std::string to_text(const SkySettings& sky);
-
 /// The value of --sun: "point", "disc" or "none". Throws InputError.
 SunShape parse_sun_shape(std::string_view text);
 /// The value of --sun-direction: "AZ,EL" in degrees. Throws InputError.
@@ -67,8 +35,8 @@ Site parse_site(std::string_view text);
 
 /// One daylight for each instant, or one for the sun's direction, or one without sun. `convergence_rad` is the true
 /// azimuth of grid north. Findings: SB601 a turbidity outside the usable range, SB602 a sun on or below the horizon,
-/// SB603 the published level, SB604 no light at all. Throws InputError when something is missing: a sun for the
-/// Preetham sky, a site for the instants.
+/// SB603 the published level, SB604 no light at all, SB605 a weather outside of the Perez model. Throws InputError when
+/// something is missing: a sun for the skies that need one, a site for the instants.
 std::vector<Daylight> make_daylights(const DaylightSettings& settings, const std::optional<Site>& site,
                                      double convergence_rad, FindingLog& findings);
 
