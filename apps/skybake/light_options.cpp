@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/nearest_word.h"
 #include "city/city_model.h"
+#include "weather_option.h"
 
 namespace skybake::cli {
 
@@ -60,6 +61,12 @@ void add_daylight_options(CLI::App* verb, LightOptions& options) {
         ->group(group)
         ->type_name("MODEL")
         ->capture_default_str();
+    verb->add_option(
+            "--weather", options.weather,
+            "EPW weather file: its hour at --at sets the level of sky and sun, and the site if nothing else does")
+        ->group(group)
+        ->type_name("FILE")
+        ->excludes("--sun-direction");
 }
 
 void add_light_options(CLI::App* verb, LightOptions& options) {
@@ -91,6 +98,10 @@ DaylightSettings daylight_settings_of(const LightOptions& options) {
         options.timezone.empty() ? std::nullopt : std::optional(options.timezone);
     if (!options.at.empty()) settings.instants = parse_instants(options.at, timezone);
     if (!options.sun_direction.empty()) settings.sun_direction = parse_sun_direction(options.sun_direction);
+    if (!options.weather.empty()) {
+        put_weather(settings, options.weather);
+        if (options.sky == kDefaultSky) settings.sky = default_weather_sky();
+    }
     return settings;
 }
 

@@ -14,6 +14,7 @@
 #include "light_options.h"
 #include "program.h"
 #include "sky/solar_position.h"
+#include "weather_option.h"
 
 namespace skybake::cli {
 
@@ -261,6 +262,21 @@ void print_summary(const nlohmann::json& summary) {
     row("global horizontal", "ghi_w_m2", "W/m2");
 }
 
+/// --weather without --at: what the file holds.
+int run_weather(const DaylightSettings& settings, const SkyOptions& options, const CommonOptions& common) {
+    if (!options.picture.empty() || !options.directions.empty())
+        throw InputError(
+            "--weather needs the hour of the sky: give --at TIME, for example --at 2026-06-21T12:00+02:00.");
+    if (common.wants_json) {
+        nlohmann::json object = {{"weather", weather_json(*settings.weather)}};
+        object["findings"] = to_json(settings.weather_findings);
+        print_json(object);
+    } else {
+        print_weather(*settings.weather);
+    }
+    return report_findings(common, settings.weather_findings);
+}
+
 int run_sky(const SkyOptions& options, const CommonOptions& common) {
     if (!options.picture.empty()) {
         const std::string extension = std::filesystem::path(options.picture).extension().string();
@@ -269,28 +285,31 @@ int run_sky(const SkyOptions& options, const CommonOptions& common) {
     }
     FindingLog findings;
     const DaylightSettings settings = daylight_settings_of(options.light);
+    if (settings.weather && settings.instants.empty()) return run_weather(settings, options, common);
     if (settings.instants.size() > 1) {
         throw InputError(
             fmt::format("--at names {} instants; sky shows one. Call it once for each.", settings.instants.size()));
     }
     const Daylight daylight = make_daylights(settings, site_of(options.light, std::nullopt), 0.0, findings).at(0);
+    const SkySettings sky = sky_at(settings, 0);
     std::optional<Queries> queries;
     if (!options.directions.empty()) queries = read_directions(options.directions);
     if (!options.picture.empty()) {
-        write_picture(options.picture, daylight, settings.sky, options.width);
+        write_picture(options.picture, daylight, sky, options.width);
         say(common,
             fmt::format("wrote {}: equirectangular, {} x {}, zenith on top, true north at the left edge, clockwise",
                         options.picture, options.width, options.width / 2));
     }
     if (common.wants_json) {
-        nlohmann::json object = summary_of(daylight, settings.sky);
+        nlohmann::json object = summary_of(daylight, sky);
+        if (settings.weather) object["weather"] = weather_json(*settings.weather);
         if (queries) object["directions"] = directions_json(daylight.sky, *queries);
         object["findings"] = to_json(findings);
         print_json(object);
     } else if (queries) {
         print_csv(daylight.sky, *queries);
     } else if (options.picture.empty()) {
-        print_summary(summary_of(daylight, settings.sky));
+        print_summary(summary_of(daylight, sky));
     }
     return report_findings(common, findings);
 }
@@ -303,7 +322,9 @@ void add_sky(CLI::App& app, Program& program) {
         app, program, "sky", "Luminance and colour of the sky: summed up, in given directions, or as a panorama.",
         "  skybake sky --sun-direction 180,45\n"
         "  skybake sky --site 47.07,15.44 --at 2026-06-21T12:00+02:00 -o sky.png\n"
-        "  skybake sky --sun-direction 180,45 --sky preetham:turbidity=2 --directions directions.csv",
+        "  skybake sky --sun-direction 180,45 --sky preetham:turbidity=2 --directions directions.csv\n"
+        "  skybake sky --weather graz.epw\n"
+        "  skybake sky --weather graz.epw --at 2026-06-21T12:00+02:00",
         [options, &program] { return run_sky(*options, program.common); });
     add_daylight_options(verb, options->light);
     verb->add_option("--directions", options->directions,

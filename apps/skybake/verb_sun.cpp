@@ -107,10 +107,11 @@ int run_sun(const LightOptions& options, const CommonOptions& common) {
             "the sun needs a time: give --at TIME and --site LAT,LON, for example --at 2026-06-21T12:00+02:00 --site "
             "47.07,15.44.");
     }
-    const std::optional<Site> site = site_of(options, std::nullopt);
+    const std::optional<Site> known_site = site_of(options, std::nullopt);
+    const std::optional<Site> site = site_of_light(settings, known_site);
     if (!settings.instants.empty() && !site)
         throw InputError("--at needs a place: give --site LAT,LON in degrees, for example --site 47.07,15.44.");
-    const std::vector<Daylight> daylights = make_daylights(settings, site, 0.0, findings);
+    const std::vector<Daylight> daylights = make_daylights(settings, known_site, 0.0, findings);
     const std::vector<nlohmann::json> entries =
         settings.sun_direction ? std::vector{entry_of_direction(*settings.sun_direction, daylights.at(0))}
                                : entries_at(settings, daylights, *site);

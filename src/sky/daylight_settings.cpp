@@ -187,14 +187,14 @@ void find_low_sun(const SeenSun& sun, bool has_model_sky, FindingLog& findings) 
          "Choose a time between sunrise and sunset."});
 }
 
-Daylight daylight_of(const DaylightSettings& settings, const SeenSun& sun, double convergence_rad,
-                     FindingLog& findings) {
-    find_low_sun(sun, std::holds_alternative<PreethamSettings>(settings.sky), findings);
+Daylight daylight_of(const DaylightSettings& settings, const SkySettings& sky, const SeenSun& sun,
+                     double convergence_rad, FindingLog& findings) {
+    find_low_sun(sun, std::holds_alternative<PreethamSettings>(sky), findings);
     const Vec3d direction = world_direction(sun.azimuth_rad, sun.elevation_rad, convergence_rad);
-    const double turbidity = turbidity_of(settings.sky);
+    const double turbidity = turbidity_of(sky);
     Daylight daylight;
     daylight.label = sun.label;
-    daylight.sky = sky_of(settings.sky, sun, direction);
+    daylight.sky = sky_of(sky, sun, direction);
     daylight.sun.direction = Vec3f(direction);
     daylight.sun.shape = settings.sun;
     daylight.sun.angular_radius_rad = static_cast<float>(kSunAngularRadiusRad / sun.distance_au);
@@ -205,6 +205,66 @@ Daylight daylight_of(const DaylightSettings& settings, const SeenSun& sun, doubl
             static_cast<float>(clear_sky_irradiance(turbidity, sun.zenith_rad(), sun.distance_au).dni);
     }
     return daylight;
+}
+
+/// The weather of an instant; a file without it is an error of the input.
+WeatherHour weather_of(const Weather& weather, const Instant& instant) {
+    if (const std::optional<WeatherHour> hour = weather_at(weather, instant.utc)) return *hour;
+    const std::vector<int> years = years_of(weather);
+    throw InputError(fmt::format(
+        "{}: there is no radiation for {}{}. Choose another instant of --at, or fill the gap in the file.",
+        weather.file.string(), to_iso8601(instant),
+        weather.spans_years ? fmt::format(" (the file goes from {} to {})", years.front(), years.back()) : ""));
+}
+
+/// The beam of the weather: its irradiance as given, its colour and luminous efficacy those of a clear sky's beam. The
+/// efficacy is taken at 5° or higher, below which the clear sky's irradiance is an extrapolation.
+void set_beam(SunBeam& beam, double dni_w_m2, double turbidity, const SeenSun& sun) {
+    const double lit_zenith = std::min(sun.zenith_rad(), radians_from_degrees(85.0));
+    const double efficacy = sun_normal_illuminance(turbidity, lit_zenith, sun.distance_au).y /
+                            clear_sky_irradiance(turbidity, lit_zenith, sun.distance_au).dni;
+    const double clear_lx = static_cast<double>(luminance(beam.normal_illuminance));
+    const double dni = clear_lx > 0.0 ? dni_w_m2 : 0.0;  // dark on and below the horizon, and without a sun
+    if (dni > 0.0)
+        beam.normal_illuminance *= static_cast<float>(dni * efficacy / clear_lx);
+    else
+        beam.normal_illuminance = Rgb(0.0f);
+    beam.dni_w_m2 = static_cast<float>(dni);
+}
+
+/// Great-circle distance, km.
+double distance_km(const Site& a, const Site& b) {
+    const double sine_latitude = std::sin((b.latitude_rad - a.latitude_rad) / 2.0);
+    const double sine_longitude = std::sin((b.longitude_rad - a.longitude_rad) / 2.0);
+    const double h = sine_latitude * sine_latitude +
+                     std::cos(a.latitude_rad) * std::cos(b.latitude_rad) * sine_longitude * sine_longitude;
+    return 2.0 * 6371.0 * std::asin(std::min(1.0, std::sqrt(h)));
+}
+
+void find_weather(const DaylightSettings& settings, const std::optional<Site>& site, FindingLog& findings) {
+    const Weather& weather = *settings.weather;
+    findings.merge(settings.weather_findings);
+    const Site& station = weather.station.site;
+    const std::string place = fmt::format("{:.4f},{:.4f}", degrees_from_radians(station.latitude_rad),
+                                          degrees_from_radians(station.longitude_rad));
+    if (!site) {
+        findings.add(
+            {"SB711", Severity::info, weather.name(),
+             fmt::format("neither --site nor the city says where on Earth it is: it is taken to be at {} ({}).", place,
+                         weather.station.city),
+             "Pass --site LAT,LON where the city stands elsewhere."});
+    } else if (const double km = distance_km(*site, station); km > 100.0) {
+        findings.add(
+            {"SB712", Severity::warning, weather.name(),
+             fmt::format("the weather is that of {} ({}), {:.0f} km from the site.", place, weather.station.city, km),
+             "Take the weather file of a nearer place."});
+    }
+    for (const Instant& instant : settings.instants) {
+        if (!weather_of(weather, instant).is_leap_day_replaced) continue;
+        findings.add({"SB713", Severity::info, weather.name(),
+                      fmt::format("{} is 29 February, which the file does not have.", to_iso8601(instant)),
+                      "Nothing to do: the weather is that of 28 February."});
+    }
 }
 
 }  // namespace
@@ -277,8 +337,28 @@ Site parse_site(std::string_view text) {
     return {radians_from_degrees(degrees->first), radians_from_degrees(degrees->second), 0.0};
 }
 
-std::vector<Daylight> make_daylights(const DaylightSettings& settings, const std::optional<Site>& site,
+SkySettings default_weather_sky() {
+    return PreethamSettings{};
+}
+
+SkySettings sky_at(const DaylightSettings& settings, std::size_t instant) {
+    if (!settings.weather) return settings.sky;
+    const WeatherHour hour = weather_of(*settings.weather, settings.instants.at(instant));
+    if (const auto* preetham = std::get_if<PreethamSettings>(&settings.sky))
+        return PreethamSettings{preetham->turbidity, SkyLevel::dhi, hour.dhi_w_m2};
+    return settings.sky;
+}
+
+std::optional<Site> site_of_light(const DaylightSettings& settings, const std::optional<Site>& site) {
+    return site || !settings.weather ? site : settings.weather->station.site;
+}
+
+std::vector<Daylight> make_daylights(const DaylightSettings& settings, const std::optional<Site>& known_site,
                                      double convergence_rad, FindingLog& findings) {
+    const std::optional<Site> site = site_of_light(settings, known_site);
+    if (settings.weather && settings.instants.empty()) {
+        throw InputError("--weather needs to know the hour: give --at TIME, for example --at 2026-06-21T12:00+02:00.");
+    }
     if (!settings.instants.empty() && settings.sun_direction) {
         throw InputError("--at and --sun-direction both place the sun; give one of them.");
     }
@@ -296,9 +376,10 @@ std::vector<Daylight> make_daylights(const DaylightSettings& settings, const std
             "--site LAT,LON in degrees, "
             "for example --site 47.07,15.44, or --sun-direction AZIMUTH,ELEVATION instead of --at.");
     }
+    if (settings.weather) find_weather(settings, known_site, findings);
     if (is_preetham) {
         find_turbidity(turbidity_of(settings.sky), findings);
-        if (std::get<PreethamSettings>(settings.sky).level == SkyLevel::published) {
+        if (!settings.weather && std::get<PreethamSettings>(settings.sky).level == SkyLevel::published) {
             findings.add({"SB603", Severity::info, "--sky",
                           "the published level of the Preetham sky is up to 1.7 times too bright.",
                           "Take level=clearsky for numbers that are to be relied on."});
@@ -314,8 +395,8 @@ std::vector<Daylight> make_daylights(const DaylightSettings& settings, const std
         const auto [azimuth, elevation] = *settings.sun_direction;
         const std::string label =
             fmt::format("sun {:.6g},{:.6g}", degrees_from_radians(azimuth), degrees_from_radians(elevation));
-        daylights.push_back(
-            daylight_of(settings, {label, "--sun-direction", azimuth, elevation, 1.0}, convergence_rad, findings));
+        daylights.push_back(daylight_of(settings, settings.sky, {label, "--sun-direction", azimuth, elevation, 1.0},
+                                        convergence_rad, findings));
         return daylights;
     }
     if (!has_sun) {
@@ -327,12 +408,17 @@ std::vector<Daylight> make_daylights(const DaylightSettings& settings, const std
         return daylights;
     }
     daylights.reserve(settings.instants.size());
-    for (const Instant& instant : settings.instants) {
+    for (std::size_t i = 0; i < settings.instants.size(); ++i) {
+        const Instant& instant = settings.instants[i];
         const SolarPosition position = solar_position(instant.utc, *site);
         const std::string label = to_iso8601(instant);
         const SeenSun sun{label, "--at " + label, position.azimuth_rad, position.apparent_elevation_rad,
                           position.distance_au};
-        daylights.push_back(daylight_of(settings, sun, convergence_rad, findings));
+        daylights.push_back(daylight_of(settings, sky_at(settings, i), sun, convergence_rad, findings));
+        if (settings.weather) {
+            set_beam(daylights.back().sun, weather_of(*settings.weather, instant).dni_w_m2, turbidity_of(settings.sky),
+                     sun);
+        }
     }
     return daylights;
 }
