@@ -100,7 +100,7 @@ DaylightSettings daylight_settings_of(const LightOptions& options) {
     if (!options.sun_direction.empty()) settings.sun_direction = parse_sun_direction(options.sun_direction);
     if (!options.weather.empty()) {
         put_weather(settings, options.weather);
-        if (options.sky == kDefaultSky) settings.sky = default_weather_sky();
+        if (options.sky == kDefaultSky) settings.sky = PreethamSettings{};
     }
     return settings;
 }

@@ -11,6 +11,7 @@
 #include "sky/clear_sky.h"
 #include "sky/solar_position.h"
 #include "sky/sun_beam.h"
+#include "sky/weather_light.h"
 
 namespace skybake {
 
@@ -207,66 +208,6 @@ Daylight daylight_of(const DaylightSettings& settings, const SkySettings& sky, c
     return daylight;
 }
 
-/// The weather of an instant; a file without it is an error of the input.
-WeatherHour weather_of(const Weather& weather, const Instant& instant) {
-    if (const std::optional<WeatherHour> hour = weather_at(weather, instant.utc)) return *hour;
-    const std::vector<int> years = years_of(weather);
-    throw InputError(fmt::format(
-        "{}: there is no radiation for {}{}. Choose another instant of --at, or fill the gap in the file.",
-        weather.file.string(), to_iso8601(instant),
-        weather.spans_years ? fmt::format(" (the file goes from {} to {})", years.front(), years.back()) : ""));
-}
-
-/// The beam of the weather: its irradiance as given, its colour and luminous efficacy those of a clear sky's beam. The
-/// efficacy is taken at 5° or higher, below which the clear sky's irradiance is an extrapolation.
-void set_beam(SunBeam& beam, double dni_w_m2, double turbidity, const SeenSun& sun) {
-    const double lit_zenith = std::min(sun.zenith_rad(), radians_from_degrees(85.0));
-    const double efficacy = sun_normal_illuminance(turbidity, lit_zenith, sun.distance_au).y /
-                            clear_sky_irradiance(turbidity, lit_zenith, sun.distance_au).dni;
-    const double clear_lx = static_cast<double>(luminance(beam.normal_illuminance));
-    const double dni = clear_lx > 0.0 ? dni_w_m2 : 0.0;  // dark on and below the horizon, and without a sun
-    if (dni > 0.0)
-        beam.normal_illuminance *= static_cast<float>(dni * efficacy / clear_lx);
-    else
-        beam.normal_illuminance = Rgb(0.0f);
-    beam.dni_w_m2 = static_cast<float>(dni);
-}
-
-/// Great-circle distance, km.
-double distance_km(const Site& a, const Site& b) {
-    const double sine_latitude = std::sin((b.latitude_rad - a.latitude_rad) / 2.0);
-    const double sine_longitude = std::sin((b.longitude_rad - a.longitude_rad) / 2.0);
-    const double h = sine_latitude * sine_latitude +
-                     std::cos(a.latitude_rad) * std::cos(b.latitude_rad) * sine_longitude * sine_longitude;
-    return 2.0 * 6371.0 * std::asin(std::min(1.0, std::sqrt(h)));
-}
-
-void find_weather(const DaylightSettings& settings, const std::optional<Site>& site, FindingLog& findings) {
-    const Weather& weather = *settings.weather;
-    findings.merge(settings.weather_findings);
-    const Site& station = weather.station.site;
-    const std::string place = fmt::format("{:.4f},{:.4f}", degrees_from_radians(station.latitude_rad),
-                                          degrees_from_radians(station.longitude_rad));
-    if (!site) {
-        findings.add(
-            {"SB711", Severity::info, weather.name(),
-             fmt::format("neither --site nor the city says where on Earth it is: it is taken to be at {} ({}).", place,
-                         weather.station.city),
-             "Pass --site LAT,LON where the city stands elsewhere."});
-    } else if (const double km = distance_km(*site, station); km > 100.0) {
-        findings.add(
-            {"SB712", Severity::warning, weather.name(),
-             fmt::format("the weather is that of {} ({}), {:.0f} km from the site.", place, weather.station.city, km),
-             "Take the weather file of a nearer place."});
-    }
-    for (const Instant& instant : settings.instants) {
-        if (!weather_of(weather, instant).is_leap_day_replaced) continue;
-        findings.add({"SB713", Severity::info, weather.name(),
-                      fmt::format("{} is 29 February, which the file does not have.", to_iso8601(instant)),
-                      "Nothing to do: the weather is that of 28 February."});
-    }
-}
-
 }  // namespace
 
 SkySettings parse_sky(std::string_view text) {
@@ -337,16 +278,9 @@ Site parse_site(std::string_view text) {
     return {radians_from_degrees(degrees->first), radians_from_degrees(degrees->second), 0.0};
 }
 
-SkySettings default_weather_sky() {
-    return PreethamSettings{};
-}
-
 SkySettings sky_at(const DaylightSettings& settings, std::size_t instant) {
     if (!settings.weather) return settings.sky;
-    const WeatherHour hour = weather_of(*settings.weather, settings.instants.at(instant));
-    if (const auto* preetham = std::get_if<PreethamSettings>(&settings.sky))
-        return PreethamSettings{preetham->turbidity, SkyLevel::dhi, hour.dhi_w_m2};
-    return settings.sky;
+    return sky_of_weather(settings.sky, weather_of(*settings.weather, settings.instants.at(instant)));
 }
 
 std::optional<Site> site_of_light(const DaylightSettings& settings, const std::optional<Site>& site) {
@@ -416,8 +350,8 @@ std::vector<Daylight> make_daylights(const DaylightSettings& settings, const std
                           position.distance_au};
         daylights.push_back(daylight_of(settings, sky_at(settings, i), sun, convergence_rad, findings));
         if (settings.weather) {
-            set_beam(daylights.back().sun, weather_of(*settings.weather, instant).dni_w_m2, turbidity_of(settings.sky),
-                     sun);
+            set_beam(daylights.back().sun, weather_of(*settings.weather, instant), turbidity_of(settings.sky),
+                     sun.zenith_rad(), sun.distance_au);
         }
     }
     return daylights;

@@ -70,9 +70,6 @@ SunDirection parse_sun_direction(std::string_view text);
 /// The value of --site: "LAT,LON" in degrees, WGS 84, north and east positive. Throws InputError.
 Site parse_site(std::string_view text);
 
-/// The sky where a weather file gives its level and no model was asked for.
-SkySettings default_weather_sky();
-
 /// The sky of an instant (by its number in the settings), its level set by the weather if there is any. Throws
 /// InputError when the weather file has no radiation for the instant.
 SkySettings sky_at(const DaylightSettings& settings, std::size_t instant);

@@ -240,6 +240,14 @@ TEST(RealWeather, HasTheStatedMiddleAndSums) {
                    weather.name(), weather.centre.offset_h, weather.centre.confidence, weather.centre.residual_w_m2,
                    weather.centre.standard_residual_w_m2, sums.ghi, sums.dni, sums.dhi);
 
+        // What interpolation between the middles leaves of the year's sums: every half hour of the file's own hours.
+        double dni = 0.0;
+        for (std::int64_t half = 0; half < 2 * 8760; ++half) {
+            const UtcTime time{utc_midnight(2026, 1, 1).milliseconds + half * 1'800'000 + 420'000};
+            dni += 0.5e-3 * weather_at(weather, time)->dni_w_m2;
+        }
+        EXPECT_NEAR(dni / sums.dni, 1.0, 0.001);
+
         // The residual again, by the full solar position of every row.
         double sum = 0.0;
         int count = 0;

@@ -255,7 +255,7 @@ TEST(WeatherAt, KnowsLeapDaysGapsAndYears) {
 // global.
 TEST(DaylightOfWeather, HasTheIrradianceOfItsHour) {
     DaylightSettings settings;
-    settings.sky = default_weather_sky();
+    settings.sky = PreethamSettings{};
     settings.weather = clear_year({});
     settle_weather(*settings.weather, settings.weather_findings);
     WeatherRow& row = row_of(*settings.weather, 6, 21, 12.0);
