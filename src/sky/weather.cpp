@@ -22,7 +22,7 @@ constexpr double kHourMs = 3'600'000.0;
 constexpr double kDayMs = 24.0 * kHourMs;
 
 // Model years keep their sums to 2 W/m² on average and have a confidence of 0.8 and more (docs/validation.md); a clear
-// year with 30 W/m² of noise on GHI and on DHI has 0.2 and is still right to ten minutes (weather_test).
+// year with 30 W/m² of noise on GHI and on DHI has 0.17 and is still right to ten minutes (weather_test).
 constexpr double kLeastConfidence = 0.1;
 constexpr std::size_t kLeastSunnyRows = 48;
 constexpr double kSunnyDni = 50.0;

@@ -106,7 +106,7 @@ TEST(HourCentre, SurvivesNoiseAndAdmitsIgnorance) {
     const HourCentre centre = find_hour_centre(noisy);
     EXPECT_TRUE(centre.is_detected);
     EXPECT_NEAR(centre.offset_h, -1.0, 10.0 / 60.0);
-    EXPECT_LT(centre.confidence, 0.8);
+    EXPECT_NEAR(centre.confidence, 0.17, 0.05);
 
     Weather overcast = clear_year({.centre_h = -1.0});
     for (WeatherRow& row : overcast.rows) {
