@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/nearest_word.h"
 #include "city/city_model.h"
+#include "weather_option.h"
 
 namespace skybake::cli {
 
@@ -57,6 +58,12 @@ void add_daylight_options(CLI::App* verb, LightOptions& options) {
         ->type_name("AZ,EL")
         ->excludes("--at");
     verb->add_option("--sky", options.sky, kSkyForms)->group(group)->type_name("MODEL")->capture_default_str();
+    verb->add_option(
+            "--weather", options.weather,
+            "EPW weather file: its hour at --at sets the level of sky and sun, and the site if nothing else does")
+        ->group(group)
+        ->type_name("FILE")
+        ->excludes("--sun-direction");
 }
 
 void add_light_options(CLI::App* verb, LightOptions& options) {
@@ -91,6 +98,10 @@ DaylightSettings parsed_settings(const LightOptions& options) {
         options.timezone.empty() ? std::nullopt : std::optional(options.timezone);
     if (!options.at.empty()) settings.instants = parse_instants(options.at, timezone);
     if (!options.sun_direction.empty()) settings.sun_direction = parse_sun_direction(options.sun_direction);
+    if (!options.weather.empty()) {
+        put_weather(settings, options.weather);
+        if (options.sky == kDefaultSky) settings.sky = PerezSettings{};
+    }
     return settings;
 }
 

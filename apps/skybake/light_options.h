@@ -14,20 +14,23 @@
 
 namespace skybake::cli {
 
+inline constexpr const char* kDefaultSky = "preetham:turbidity=3,level=clearsky";
+
 /// As typed; parsed by the functions below.
 struct LightOptions {
     std::string at;
     std::string timezone;
     std::string site;
     std::string sun_direction;
-    std::string sky = "preetham:turbidity=3,level=clearsky";
+    std::string sky = kDefaultSky;
+    std::string weather;
     std::string sun = "point";
     int sky_samples = 1024;  // directions per texel
     std::string indirect = "none";
     std::string albedo;
 };
 
-/// --at, --timezone, --site, --sun-direction and --sky.
+/// --at, --timezone, --site, --sun-direction, --sky and --weather.
 void add_daylight_options(CLI::App* verb, LightOptions& options);
 /// The above, and --sun, --sky-samples, --indirect and --albedo.
 void add_light_options(CLI::App* verb, LightOptions& options);

@@ -32,6 +32,7 @@ std::vector<std::pair<std::string, std::string>> settings_of(const Options& opti
             {"site", options.light.site},
             {"sun-direction", options.light.sun_direction},
             {"sky", options.light.sky},
+            {"weather", std::filesystem::path(options.light.weather).filename().string()},
             {"sun", options.light.sun},
             {"sky-samples", std::to_string(options.light.sky_samples)},
             {"indirect", options.light.indirect},

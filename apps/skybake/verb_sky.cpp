@@ -20,6 +20,7 @@
 #include "light_options.h"
 #include "program.h"
 #include "sky/solar_position.h"
+#include "weather_option.h"
 
 namespace skybake::cli {
 
@@ -352,6 +353,21 @@ void print_summary(const nlohmann::json& summary) {
     row("global horizontal", "ghi_w_m2", "W/m2");
 }
 
+/// --weather without --at: what the file holds.
+int run_weather(const DaylightSettings& settings, const SkyVerbOptions& options, const CommonOptions& common) {
+    if (!options.picture.empty() || !options.directions.empty())
+        throw InputError(
+            "--weather needs the hour of the sky: give --at TIME, for example --at 2026-06-21T12:00+02:00.");
+    if (common.wants_json) {
+        nlohmann::json object = {{"weather", weather_json(*settings.weather)}};
+        object["findings"] = to_json(settings.weather_findings);
+        print_json(object);
+    } else {
+        print_weather(*settings.weather);
+    }
+    return report_findings(common, settings.weather_findings);
+}
+
 int run_sky(const SkyVerbOptions& options, const CommonOptions& common) {
     if (!options.picture.empty()) {
         const std::string extension = std::filesystem::path(options.picture).extension().string();
@@ -366,6 +382,7 @@ int run_sky(const SkyVerbOptions& options, const CommonOptions& common) {
     const ThreadLimit threads(common.threads);
     FindingLog findings;
     const DaylightSettings settings = daylight_settings_of(options.light);
+    if (settings.weather && settings.instants.empty()) return run_weather(settings, options, common);
     const std::vector<Daylight> daylights =
         make_daylights(settings, site_of(options.light, std::nullopt), 0.0, findings);
     std::optional<Queries> queries;
@@ -379,16 +396,18 @@ int run_sky(const SkyVerbOptions& options, const CommonOptions& common) {
     if (!options.picture.empty()) say(common, write_picture(options, daylights, settings.sky));
     if (common.wants_json) {
         std::vector<nlohmann::json> entries;
-        for (const Daylight& daylight : daylights) entries.push_back(summary_of(daylight, settings.sky));
+        for (std::size_t i = 0; i < daylights.size(); ++i)
+            entries.push_back(summary_of(daylights[i], sky_at(settings, i)));
         nlohmann::json object = entries.size() == 1 ? entries.front() : nlohmann::json::object();
         object["instants"] = entries;
+        if (settings.weather) object["weather"] = weather_json(*settings.weather);
         if (queries) object["directions"] = directions_json(daylights.front().sky, *queries);
         object["findings"] = to_json(findings);
         print_json(object);
     } else if (queries) {
         print_csv(daylights.front().sky, *queries);
     } else if (options.picture.empty()) {
-        for (const Daylight& daylight : daylights) print_summary(summary_of(daylight, settings.sky));
+        for (std::size_t i = 0; i < daylights.size(); ++i) print_summary(summary_of(daylights[i], sky_at(settings, i)));
     }
     return report_findings(common, findings);
 }
@@ -402,7 +421,8 @@ void add_sky(CLI::App& app, Program& program) {
         "  skybake sky --sun-direction 180,45 --sky perez:dni=700,dhi=90\n"
         "  skybake sky --site 47.07,15.44 --at 2026-06-21T12:00+02:00 --projection fisheye -o sky.png\n"
         "  skybake sky --site 47.07,15.44 --at 2026-06-21T04:00Z/2026-06-21T20:00Z/2h -o day.png\n"
-        "  skybake sky --sun-direction 180,45 --sky cie:type=12 --directions directions.csv",
+        "  skybake sky --sun-direction 180,45 --sky cie:type=12 --directions directions.csv\n"
+        "  skybake sky --weather graz.epw --at 2026-06-21T12:00+02:00",
         [options, &program] { return run_sky(*options, program.common); });
     add_daylight_options(verb, options->light);
     verb->add_option("--directions", options->directions,

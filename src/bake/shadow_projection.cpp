@@ -59,7 +59,7 @@ HWY_INLINE std::uint32_t overlapping(const ProjectionTile& tile, const OccluderT
     const Vec3f n = tile.axis_h;
     const auto top =
         hn::Add(linear(tag, n, -glm::dot(n, tile.origin), x, y, z), linear(tag, glm::abs(n), 0.0f, ex, ey, ez));
-    auto mask = hn::Gt(top, hn::Set(tag, tile.clearance));
+    auto mask = hn::Gt(top, hn::Zero(tag));
     const auto reach = hn::Max(top, zero);
     const auto test = [&](const Vec3f& axis, float mean, float spread, float lo, float hi) {
         const Vec3f a = axis - mean * n;
@@ -95,7 +95,7 @@ HWY_INLINE void append_overlapping(ProjectionTile& tile, const OccluderTree::Lea
         top = k == 0 ? h[k] : hn::Max(top, h[k]);
     }
     const V slack_u = hn::Mul(hn::Set(tag, range.spread.x), top), slack_v = hn::Mul(hn::Set(tag, range.spread.y), top);
-    auto mask = hn::Gt(top, hn::Set(tag, tile.clearance));
+    auto mask = hn::Gt(top, hn::Zero(tag));
     mask = hn::And(mask, hn::And(hn::Le(hn::Sub(lo_u, slack_u), hn::Set(tag, window.hi.x)),
                                  hn::Ge(hn::Add(hi_u, slack_u), hn::Set(tag, window.lo.x))));
     mask = hn::And(mask, hn::And(hn::Le(hn::Sub(lo_v, slack_v), hn::Set(tag, window.hi.y)),
@@ -413,12 +413,10 @@ HWY_EXPORT(FindCandidates);
 HWY_EXPORT(CastShadows);
 
 constexpr float kLowestCosine = 0.01f;
-// How far the surface of a planar chart may rise above the plane of its points, metres: build_atlas.cpp takes faces
-// within this distance for one plane.
-constexpr float kPlanarClearance = 0.01f;
-// A point this near its texel's centre stands for it, texels; and this near a plane, for a point of it, metres.
+// A point this near its texel's centre stands for it, texels; and this near a plane, for a point of it, metres: less
+// than points are lifted off their surface, so that the surface does not shade itself.
 constexpr float kRegular = 5e-3f;
-constexpr float kFlat = 1e-3f;
+constexpr float kFlat = 5e-4f;
 // A triangle of a relief chart with fewer texels is not worth a facet.
 constexpr std::size_t kFacetTexels = 24;
 // A quad costs some 5 cycles a direction even where its shadow falls beside the tile, and a ray of a packet some 100:
@@ -455,7 +453,6 @@ bool can_project(const Vec3f& normal, const Vec3f& direction) {
 ShadowProjector::ShadowProjector(const OccluderTree& tree, const TilePoints& points) : tree_(tree) {
     SKYBAKE_CHECK_LE(points.width, ProjectionTile::kMaxSize);
     SKYBAKE_CHECK_LE(points.height, ProjectionTile::kMaxSize);
-    const bool is_relief = !points.normal.empty();
     const TileFrame& frame = points.frame;
     tile_.width = points.width;
     tile_.height = points.height;
@@ -477,19 +474,14 @@ ShadowProjector::ShadowProjector(const OccluderTree& tree, const TilePoints& poi
             highest = std::max(highest, uvh[i].z);
         }
     }
-    // The points of a planar chart lie in one plane, and so does the chart, but for what its city's file has rounded.
-    const float base = is_relief ? lowest : highest;
-    tile_.origin = frame.origin + base * frame.normal;
-    tile_.relief = is_relief ? highest - lowest : 0.0f;
-    tile_.clearance = is_relief ? 0.0f : kPlanarClearance;
-    for (Vec3f& point : uvh) point.z = is_relief ? point.z - base : 0.0f;
+    tile_.origin = frame.origin + lowest * frame.normal;
+    tile_.relief = highest - lowest;
+    for (Vec3f& point : uvh) point.z -= lowest;
 
     find_facets(points, uvh);
     tile_.open_block.resize(tile_.in_use.size());
-    if (is_relief) {
-        tile_.projected_u.resize(tile_.u.size());
-        tile_.projected_v.resize(tile_.v.size());
-    }
+    tile_.projected_u.resize(tile_.u.size());
+    tile_.projected_v.resize(tile_.v.size());
 }
 
 void ShadowProjector::find_facets(const TilePoints& points, std::span<const Vec3f> uvh) {
@@ -533,8 +525,8 @@ void ShadowProjector::find_facets(const TilePoints& points, std::span<const Vec3
                     const Vec3f& n = points.normal[i];
                     facet.slope = -Vec2f(glm::dot(n, points.frame.u), glm::dot(n, points.frame.v)) /
                                   glm::dot(n, points.frame.normal);
-                    facet.offset = uvh[i].z - glm::dot(facet.slope, center);
                 }
+                facet.offset = uvh[i].z - glm::dot(facet.slope, center);
             }
             if (std::abs(glm::dot(facet.slope, center) + facet.offset - uvh[i].z) < kFlat) {
                 facet.row_end = row + 1;

@@ -10,6 +10,7 @@
 #include "sky/solar_position.h"
 #include "sky/sun_beam.h"
 #include "sky/text_numbers.h"
+#include "sky/weather_light.h"
 
 namespace skybake {
 
@@ -78,21 +79,20 @@ struct NamedSun {
     double distance_au = 1.0;
 };
 
-Daylight daylight_of(const DaylightSettings& settings, const NamedSun& named, double convergence_rad,
-                     FindingLog& findings) {
+Daylight daylight_of(const DaylightSettings& settings, const SkySettings& sky, const std::optional<WeatherHour>& hour,
+                     const NamedSun& named, double convergence_rad, FindingLog& findings) {
     const SeenSun sun{named.elevation_rad, named.distance_au,
                       world_direction(named.azimuth_rad, named.elevation_rad, convergence_rad)};
-    find_low_sun(settings.sky, sun, named.where, findings);
-    if (const auto* perez = std::get_if<PerezSettings>(&settings.sky))
-        find_odd_weather(*perez, sun, named.where, findings);
+    find_low_sun(sky, sun, named.where, findings);
+    if (const auto* perez = std::get_if<PerezSettings>(&sky)) find_odd_weather(*perez, sun, named.where, findings);
     Daylight daylight;
     daylight.label = named.label;
-    daylight.sky = sky_model(settings.sky, sun, convergence_rad);
+    daylight.sky = sky_model(sky, sun, convergence_rad);
     daylight.sun.direction = Vec3f(sun.direction);
     daylight.sun.shape = settings.sun;
     daylight.sun.angular_radius_rad = static_cast<float>(kSunAngularRadiusRad / sun.distance_au);
     if (settings.sun != SunShape::none) {
-        const Beam beam = sun_beam(settings.sky, sun);
+        const Beam beam = sun_beam(hour ? SkySettings(weather_sky(*hour)) : sky, sun);
         daylight.sun.normal_illuminance = rgb_from_xyz(beam.normal_illuminance);
         daylight.sun.dni_w_m2 = static_cast<float>(beam.dni_w_m2);
     }
@@ -143,8 +143,21 @@ Site parse_site(std::string_view text) {
     return {radians_from_degrees(degrees->first), radians_from_degrees(degrees->second), 0.0};
 }
 
-std::vector<Daylight> make_daylights(const DaylightSettings& settings, const std::optional<Site>& site,
+SkySettings sky_at(const DaylightSettings& settings, std::size_t instant) {
+    if (!settings.weather) return settings.sky;
+    return sky_of_weather(settings.sky, weather_of(*settings.weather, settings.instants.at(instant)));
+}
+
+std::optional<Site> site_of_light(const DaylightSettings& settings, const std::optional<Site>& site) {
+    return site || !settings.weather ? site : settings.weather->station.site;
+}
+
+std::vector<Daylight> make_daylights(const DaylightSettings& settings, const std::optional<Site>& known_site,
                                      double convergence_rad, FindingLog& findings) {
+    const std::optional<Site> site = site_of_light(settings, known_site);
+    if (settings.weather && settings.instants.empty()) {
+        throw InputError("--weather needs to know the hour: give --at TIME, for example --at 2026-06-21T12:00+02:00.");
+    }
     if (!settings.instants.empty() && settings.sun_direction) {
         throw InputError("--at and --sun-direction both place the sun; give one of them.");
     }
@@ -161,9 +174,10 @@ std::vector<Daylight> make_daylights(const DaylightSettings& settings, const std
             "--site LAT,LON in degrees, "
             "for example --site 47.07,15.44, or --sun-direction AZIMUTH,ELEVATION instead of --at.");
     }
+    if (settings.weather) find_weather(settings, known_site, findings);
     if (const auto* preetham = std::get_if<PreethamSettings>(&settings.sky)) {
         find_turbidity(preetham->turbidity, findings);
-        if (preetham->level == SkyLevel::published) {
+        if (!settings.weather && preetham->level == SkyLevel::published) {
             findings.add({"SB603", Severity::info, "--sky",
                           "the published level of the Preetham sky is up to 1.7 times too bright.",
                           "Take level=clearsky for numbers that are to be relied on."});
@@ -172,7 +186,7 @@ std::vector<Daylight> make_daylights(const DaylightSettings& settings, const std
     if (const auto* image = std::get_if<ImageSettings>(&settings.sky)) {
         for (const Finding& finding : image->findings) findings.add(finding);
     }
-    if (is_dark(settings.sky, has_sun && settings.sun != SunShape::none)) {
+    if (!settings.weather && is_dark(settings.sky, has_sun && settings.sun != SunShape::none)) {
         findings.add({"SB604", Severity::warning, "--sky " + to_text(settings.sky),
                       "there is neither sky nor sun: all is dark.", "Give --at, --sun-direction or another --sky."});
     }
@@ -182,8 +196,9 @@ std::vector<Daylight> make_daylights(const DaylightSettings& settings, const std
         const auto [azimuth, elevation] = *settings.sun_direction;
         const std::string label =
             fmt::format("sun {:.6g},{:.6g}", degrees_from_radians(azimuth), degrees_from_radians(elevation));
-        daylights.push_back(
-            daylight_of(settings, {label, "--sun-direction", azimuth, elevation, 1.0}, convergence_rad, findings));
+        daylights.push_back(daylight_of(settings, settings.sky, std::nullopt,
+                                        {label, "--sun-direction", azimuth, elevation, 1.0}, convergence_rad,
+                                        findings));
         return daylights;
     }
     if (!has_sun) {
@@ -195,12 +210,15 @@ std::vector<Daylight> make_daylights(const DaylightSettings& settings, const std
         return daylights;
     }
     daylights.reserve(settings.instants.size());
-    for (const Instant& instant : settings.instants) {
+    for (std::size_t i = 0; i < settings.instants.size(); ++i) {
+        const Instant& instant = settings.instants[i];
         const SolarPosition position = solar_position(instant.utc, *site);
         const std::string label = to_iso8601(instant);
         const NamedSun sun{label, "--at " + label, position.azimuth_rad, position.apparent_elevation_rad,
                            position.distance_au};
-        daylights.push_back(daylight_of(settings, sun, convergence_rad, findings));
+        std::optional<WeatherHour> hour;
+        if (settings.weather) hour = weather_of(*settings.weather, instant);
+        daylights.push_back(daylight_of(settings, sky_at(settings, i), hour, sun, convergence_rad, findings));
     }
     return daylights;
 }

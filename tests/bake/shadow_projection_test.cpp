@@ -170,6 +170,18 @@ TEST(ShadowProjection, SameBitsOnEveryInstructionSet) {
     hwy::GetChosenTarget().Update(all);
 }
 
+TEST(ShadowProjection, AWallIsHiddenByItsNeighbour) {
+    // Two houses abut with 3 mm between their walls; the points lie 1 mm before the first one.
+    const Scene scene = QuadScene()
+                            .quad({0, -9, 0}, {0, 9, 0}, {0, 9, 9}, {0, -9, 9})
+                            .quad({0.003f, 9, 0}, {0.003f, -9, 0}, {0.003f, -9, 9}, {0.003f, 9, 9})
+                            .scene();
+    const std::vector<Vec3f> directions = dome(256);
+    for (const auto& visible : visibilities(scene, tile({0, 0, 4}, {1, 0, 0}, 0.25f, 20, Shape::plane), directions)) {
+        for (const std::uint64_t row : visible) EXPECT_EQ(row, 0u);
+    }
+}
+
 TEST(ShadowProjection, AnEmptySceneShadesNothing) {
     const TilePoints points = tile({0, 0, 0}, {0, 0, 1}, 0.5f, 5, Shape::plane);
     const std::vector<Vec3f> directions = dome(16);
@@ -209,8 +221,8 @@ TEST(DirectionBundles, HoldEveryChosenDirectionOnceAmongItsNeighbours) {
             found.push_back(j);
             box.extend(directions[j]);
         }
-        // 334 directions on 2π steradians: 16 of them take 0.3 sr, a cap of 0.6 across; a box of four times that holds any
-        // shape the halving leaves.
+        // 334 directions on 2π steradians: 16 of them take 0.3 sr, a cap of 0.6 across; a box of four times that holds
+        // any shape the halving leaves.
         EXPECT_LT(glm::length(box.size()), 2.4f);
     }
     std::sort(found.begin(), found.end());
