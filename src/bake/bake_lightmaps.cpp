@@ -242,10 +242,8 @@ class Baker {
         points.covered.assign(static_cast<std::size_t>(points.height), 0);
         points.is_feature.assign(static_cast<std::size_t>(points.height), 0);
         const bool is_relief = chart.min_normal_cosine < 1.0f;
-        if (is_relief) {
-            points.normal.assign(count, chart.normal);
-            points.triangle.assign(count, 0);
-        }
+        if (is_relief) points.normal.assign(count, chart.normal);
+        points.triangle.assign(count, 0);
         for (int row = 0; row < rows; ++row) {
             for (int column = 0; column < columns; ++column) {
                 const std::size_t i = samples.index(column0 + column, row0 + row);
@@ -256,10 +254,8 @@ class Baker {
                 points.x[t] = p.x;
                 points.y[t] = p.y;
                 points.z[t] = p.z;
-                if (is_relief) {
-                    points.normal[t] = normal;
-                    points.triangle[t] = samples.triangle[i];
-                }
+                if (is_relief) points.normal[t] = normal;
+                points.triangle[t] = samples.triangle[i];
                 points.covered[row] |= 1ull << column;
             }
         }

@@ -49,7 +49,7 @@ struct ProjectionTile {
     using Rows = std::array<std::uint64_t, kMaxSize + 1 + kBlock>;  // bit c: column c
 
     /// Points of one plane h = slope · (u, v) + offset that lie at their texels' centres: u = column + 0.5, v = row +
-    /// 0.5. A planar chart has one, a relief chart one a triangle.
+    /// 0.5. A planar chart has one, a bent one one a triangle.
     struct Facet {
         Vec2f slope{0.0f};  // metres per texel
         float offset = 0.0f;

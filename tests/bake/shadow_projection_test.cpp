@@ -63,10 +63,8 @@ TilePoints tile(const Vec3f& center, const Vec3f& normal, float texel, int size,
             points.x.push_back(p.x);
             points.y.push_back(p.y);
             points.z.push_back(p.z);
-            if (shape == Shape::bumps || shape == Shape::ridge) {
-                points.normal.push_back(own_normal);
-                points.triangle.push_back(shape == Shape::bumps ? i : static_cast<std::uint32_t>(2 * column >= size));
-            }
+            if (shape == Shape::bumps || shape == Shape::ridge) points.normal.push_back(own_normal);
+            points.triangle.push_back(shape == Shape::bumps ? i : static_cast<std::uint32_t>(2 * column >= size));
             if (shape != Shape::moved || random < 0.9f) points.covered[row] |= 1ull << column;
         }
     }
