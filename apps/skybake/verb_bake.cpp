@@ -76,10 +76,15 @@ int run(const CommonOptions& common, const Options& options) {
     say(common, fmt::format("{}: {} buildings, {} triangles, {} charts on {} pages, {:.2f} million texels of {} m",
                             options.output.string(), report.buildings, report.triangles, report.charts, report.pages,
                             static_cast<double>(report.texels) * 1e-6, report.texel_m));
-    say(common, fmt::format("sky: {:.0f} million rays at {:.1f} million a second; {:.1f} % of full sampling, predicted "
-                            "error against it {:.2f} %",
-                            static_cast<double>(report.rays.sky) * 1e-6, report.rays_per_second * 1e-6,
-                            100.0 * report.evaluated_fraction, 100.0 * report.predicted_rmse_over_mean));
+    if (bake.bake.sampling == SkySampling::projected) {
+        say(common, fmt::format("sky: projected shadows; rays for {:.1f} % of texels times directions, {:.1f} million",
+                                100.0 * report.evaluated_fraction, static_cast<double>(report.rays.sky) * 1e-6));
+    } else {
+        say(common, fmt::format("sky: {:.0f} million rays at {:.1f} million a second; {:.1f} % of full sampling, "
+                                "predicted error against it {:.2f} %",
+                                static_cast<double>(report.rays.sky) * 1e-6, report.rays_per_second * 1e-6,
+                                100.0 * report.evaluated_fraction, 100.0 * report.predicted_rmse_over_mean));
+    }
     say(common, fmt::format("{:.1f} s: read {:.1f}, build {:.1f}, charts {:.1f}, sky {:.1f}, sun {:.1f}, finish "
                             "{:.1f}, write {:.1f}; {:.0f} MB of memory",
                             s.total, s.read, s.build, s.charts, s.sky, s.sun, s.finish, s.write,
