@@ -15,7 +15,7 @@ LoadOptions CityOptions::load_options() const {
 void add_city_options(CLI::App* verb, CityOptions& options, bool is_required) {
     static const std::map<std::string, GroundChoice> kGrounds{
         {"none", GroundChoice::none}, {"plane", GroundChoice::plane}, {"draped", GroundChoice::draped}};
-    verb->add_option("CITY", options.files, "city files: CityJSON 1.0, 1.1, 2.0, CityJSONSeq; several make one city")
+    verb->add_option("CITY", options.files, "city files: CityGML 1.0, 2.0, 3.0, CityJSON 1.0, 1.1, 2.0, CityJSONSeq; several make one city")
         ->required(is_required);
     verb->add_option("--lod", options.lod, "level of detail, such as 1.3 or 2.2 (default: the highest of each object)");
     verb->add_option(

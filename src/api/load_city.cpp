@@ -4,16 +4,37 @@
 
 #include <chrono>
 
+#include "base/error.h"
 #include "city/finding_codes.h"
+#include "io/assembly/file_format.h"
+#include "io/citygml/read_citygml.h"
 #include "io/cityjson/read_cityjson.h"
 
 namespace skybake {
+namespace {
+
+io::ReadFile read_file(const std::filesystem::path& file, const io::ReadOptions& options, LoadedCity& loaded,
+                       Progress& progress) {
+    io::checked_file_size(file);
+    const std::string format = io::format_of(io::head_of(file));
+    if (format == "XML" || format == "GML" || format == "CityGML")
+        return io::read_citygml(file, options, loaded.city, loaded.findings, progress);
+    if (!format.empty()) {
+        throw InputError(fmt::format(
+            "{}: is {}, which this version does not read. It reads CityGML 1.0, 2.0, 3.0, CityJSON 1.0, 1.1, 2.0 and "
+            "CityJSONSeq.",
+            file.string(), format));
+    }
+    return io::read_cityjson(file, options, loaded.city, loaded.findings, progress);
+}
+
+}  // namespace
 
 LoadedCity load_city(std::span<const std::filesystem::path> files, const LoadOptions& options, Progress& progress) {
     const auto begun = std::chrono::steady_clock::now();
     LoadedCity loaded;
     for (const std::filesystem::path& file : files) {
-        const io::CityJsonFile read = io::read_cityjson(file, {options.lod}, loaded.city, loaded.findings, progress);
+        const io::ReadFile read = read_file(file, {options.lod}, loaded, progress);
         loaded.inputs.push_back({file.string(), read.bytes, fmt::format("fnv1a:{:016x}", read.content_hash)});
     }
     // Degrees become metres first: the repair's tolerances are lengths.

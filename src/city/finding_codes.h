@@ -20,7 +20,7 @@ struct FindingCode {
 /// weather. A code keeps its meaning for ever.
 inline constexpr std::array kFindingCodes{
     FindingCode{"SB101", Severity::error, "part of the file is not built as the format says",
-                "Validate the file with cjval and export it again."},
+                "Validate the file (cjval, val3dity, an XML schema) and export it again."},
     FindingCode{"SB102", Severity::info, "points and lines have no surface to light",
                 "Nothing to do, unless a surface was expected here."},
     FindingCode{"SB103", Severity::error, "vertex index out of range",
@@ -55,6 +55,8 @@ inline constexpr std::array kFindingCodes{
                 "State the LoD as \"1\" to \"3.3\"."},
     FindingCode{"SB119", Severity::error, "line of the sequence is unreadable",
                 "Repair that line; a last line cut short means an incomplete download."},
+    FindingCode{"SB120", Severity::warning, "reference leads nowhere",
+                "Export the object together with what it refers to."},
 
     FindingCode{"SB201", Severity::warning, "coordinates carry the offset of the transform twice",
                 "Nothing to do: the offset was taken off once. Its writer should store coordinates relative to "

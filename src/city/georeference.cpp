@@ -4,6 +4,7 @@
 #include <proj.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -56,6 +57,40 @@ std::string epsg_code_of(std::string_view name) {
     }
     if (codes.empty()) return is_digits(name) ? fmt::format("EPSG:{}", name) : "";
     return codes.size() == 1 ? "EPSG:" + codes[0] : fmt::format("EPSG:{}+{}", codes[0], codes[1]);
+}
+
+/// "EPSG:25832+5783" for the names of the German surveys ("urn:adv:crs:ETRS89_UTM32*DE_DHHN92_NH"); empty for others.
+/// Based on: GeoInfoDok 6.0, names of coordinate reference systems.
+std::string adv_code_of(std::string_view name) {
+    struct Entry {
+        std::string_view name, code;
+    };
+    static constexpr std::array kHorizontal{
+        Entry{"ETRS89_UTM31", "25831"}, Entry{"ETRS89_UTM32", "25832"},  Entry{"ETRS89_UTM33", "25833"},
+        Entry{"DE_DHDN_3GK2", "31466"}, Entry{"DE_DHDN_3GK3", "31467"},  Entry{"DE_DHDN_3GK4", "31468"},
+        Entry{"DE_DHDN_3GK5", "31469"}, Entry{"ETRS89_Lat-Lon", "4258"},
+    };
+    static constexpr std::array kVertical{
+        Entry{"DE_DHHN2016_NH", "7837"},
+        Entry{"DE_DHHN92_NH", "5783"},
+        Entry{"DE_DHHN85_NOH", "5784"},
+        Entry{"DE_DHHN12_NOH", "7699"},
+    };
+    if (name.find("adv:crs:") == std::string_view::npos) return "";
+    for (const Entry& horizontal : kHorizontal) {
+        if (name.find(horizontal.name) == std::string_view::npos) continue;
+        for (const Entry& vertical : kVertical) {
+            if (name.find(vertical.name) != std::string_view::npos)
+                return fmt::format("EPSG:{}+{}", horizontal.code, vertical.code);
+        }
+        return fmt::format("EPSG:{}", horizontal.code);
+    }
+    return "";
+}
+
+std::string code_of(std::string_view name) {
+    const std::string adv = adv_code_of(name);
+    return adv.empty() ? epsg_code_of(name) : adv;
 }
 
 /// The two-dimensional or geographic system that x and y belong to, out of compound and bound ones.
@@ -212,7 +247,7 @@ Georeference georeference(CityModel& city, FindingLog& findings) {
     proj_log_level(context, PJ_LOG_NONE);
     proj_context_set_enable_network(context, 0);
 
-    const std::string code = epsg_code_of(city.crs);
+    const std::string code = code_of(city.crs);
     const PjPtr crs(proj_create(context, code.empty() ? city.crs.c_str() : code.c_str()));
     const PjPtr horizontal = crs && proj_is_crs(crs.get()) ? horizontal_of(context, crs.get()) : nullptr;
     const PJ_TYPE type = horizontal ? proj_get_type(horizontal.get()) : PJ_TYPE_UNKNOWN;
@@ -304,6 +339,16 @@ Georeference georeference(CityModel& city, FindingLog& findings) {
         result.site->elevation_m = box.lo.z * z_unit;
     }
     return result;
+}
+
+bool is_geographic_crs(const std::string& name) {
+    const ContextPtr context(proj_context_create());
+    proj_log_level(context.get(), PJ_LOG_NONE);
+    proj_context_set_enable_network(context.get(), 0);
+    const std::string code = code_of(name);
+    const PjPtr crs(proj_create(context.get(), code.empty() ? name.c_str() : code.c_str()));
+    const PjPtr horizontal = crs && proj_is_crs(crs.get()) ? horizontal_of(context.get(), crs.get()) : nullptr;
+    return horizontal && is_geographic(proj_get_type(horizontal.get()));
 }
 
 }  // namespace skybake

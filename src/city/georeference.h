@@ -29,4 +29,7 @@ struct Georeference {
 /// out, x and y are exchanged first (SB307). Thread-safe.
 Georeference georeference(CityModel& city, FindingLog& findings);
 
+/// True when the coordinates of the system with that name are degrees.
+bool is_geographic_crs(const std::string& name);
+
 }  // namespace skybake

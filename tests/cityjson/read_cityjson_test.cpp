@@ -82,8 +82,8 @@ TEST(ReadCityJson, ABrokenDocumentIsRefusedWithLineAndColumn) {
 }
 
 TEST(ReadCityJson, OtherFormatsAreRefusedByName) {
-    EXPECT_THAT(error_of("<?xml version=\"1.0\"?><core:CityModel/>"),
-                HasSubstr("is CityGML, which this version does not read"));
+    EXPECT_THAT(error_of("<?xml version=\"1.0\"?><COLLADA/>"),
+                HasSubstr("is COLLADA, which this version does not read"));
     EXPECT_THAT(error_of("# a mesh\nv 0 0 0\nv 1 0 0\n"), HasSubstr("is Wavefront OBJ"));
     EXPECT_THAT(error_of("b3dm...."), HasSubstr("is 3D Tiles (b3dm)"));
     EXPECT_THAT(error_of("LOCATION,Graz,,AUT"), HasSubstr("is EnergyPlus weather (EPW)"));

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "city/finding_codes.h"
+#include "io/assembly/local_image.h"
 
 namespace skybake::io {
 namespace {
@@ -32,14 +33,6 @@ std::optional<std::array<double, 4>> color_at(element object, std::string_view k
     return count >= 3 ? std::optional(color) : std::nullopt;
 }
 
-/// Colours of city files are display colours, thus sRGB-encoded; albedo is linear.
-Rgb linear_from(const std::array<double, 4>& color) {
-    const auto channel = [&](std::size_t i) {
-        return linear_from_srgb(static_cast<float>(std::clamp(color[i], 0.0, 1.0)));
-    };
-    return {channel(0), channel(1), channel(2)};
-}
-
 Material read_material(element e, const std::string& where, FindingLog& findings) {
     Material material;
     material.name = string_at(e, "name");
@@ -50,7 +43,7 @@ Material read_material(element e, const std::string& where, FindingLog& findings
                                       fmt::format("diffuseColor {}, {}, {} is outside 0 to 1; clamped.", (*color)[0],
                                                   (*color)[1], (*color)[2])));
         }
-        material.albedo = linear_from(*color);
+        material.albedo = linear_from_display((*color)[0], (*color)[1], (*color)[2]);
     }
     double transparency = 0.0;
     if (e["transparency"].get_double().get(transparency) == simdjson::SUCCESS) {
@@ -76,29 +69,9 @@ Texture read_texture(element e, const std::filesystem::path& folder, const std::
     Texture texture;
     texture.uri = string_at(e, "image");
     texture.wrap = wrap_from(string_at(e, "wrapMode"));
-    if (const auto color = color_at(e, "borderColor")) texture.border_color = linear_from(*color);
-    texture.is_missing = true;
-
-    std::string relative = texture.uri;
-    std::replace(relative.begin(), relative.end(), '\\', '/');
-    if (relative.find("://") != std::string::npos) {
-        findings.add(
-            make_finding("SB401", where, fmt::format("image '{}' is remote and is not fetched.", texture.uri)));
-        return texture;
-    }
-    const std::filesystem::path path = std::filesystem::path(relative).lexically_normal();
-    if (path.is_absolute() || (!path.empty() && *path.begin() == "..")) {
-        findings.add(make_finding(
-            "SB402", where, fmt::format("image '{}' lies outside the folder of the city file; refused.", texture.uri)));
-        return texture;
-    }
-    std::error_code error;
-    if (relative.empty() || !std::filesystem::is_regular_file(folder / path, error)) {
-        findings.add(make_finding("SB401", where, fmt::format("image '{}' is missing.", texture.uri)));
-        return texture;
-    }
-    texture.path = (folder / path).string();
-    texture.is_missing = false;
+    if (const auto color = color_at(e, "borderColor"))
+        texture.border_color = linear_from_display((*color)[0], (*color)[1], (*color)[2]);
+    find_image(texture, folder, where, findings);
     return texture;
 }
 

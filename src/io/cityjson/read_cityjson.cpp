@@ -13,17 +13,13 @@
 #include <fstream>
 #include <map>
 #include <memory>
-#include <set>
-#include <unordered_map>
 
 #include "base/error.h"
-#include "base/hash_rng.h"
-#include "city/combine.h"
-#include "city/families.h"
 #include "city/finding_codes.h"
-#include "city/repair.h"
+#include "io/assembly/city_assembly.h"
+#include "io/assembly/file_format.h"
+#include "io/assembly/lod.h"
 #include "io/cityjson/read_appearance.h"
-#include "io/cityjson/read_format.h"
 #include "io/cityjson/read_geometry.h"
 #include "io/cityjson/read_json_text.h"
 #include "io/cityjson/read_object.h"
@@ -48,23 +44,6 @@ struct Parsed {
     element root;
 };
 
-/// The first bytes of the file.
-std::string head_of(const std::filesystem::path& path) {
-    std::ifstream in(path, std::ios::binary);
-    if (!in) throw InputError(fmt::format("{}: cannot be opened for reading.", path.string()));
-    std::string head(2048, '\0');
-    in.read(head.data(), static_cast<std::streamsize>(head.size()));
-    head.resize(static_cast<std::size_t>(in.gcount()));
-    return head;
-}
-
-struct Fnv {
-    std::uint64_t state = 0xcbf29ce484222325ULL;
-    void add(std::string_view bytes) {
-        for (const char c : bytes) state = (state ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
-    }
-};
-
 std::optional<Vec3d> read_vec3(element e) {
     simdjson::dom::array array;
     if (e.get_array().get(array) != simdjson::SUCCESS || array.size() != 3) return std::nullopt;
@@ -79,43 +58,22 @@ std::optional<Vec3d> read_vec3(element e) {
 /// Everything of one file on its way into the city.
 class FileReader {
   public:
-    FileReader(const std::filesystem::path& path, const CityJsonOptions& options, CityModel& city, FindingLog& findings,
+    FileReader(const std::filesystem::path& path, const ReadOptions& options, CityModel& city, FindingLog& findings,
                Progress& progress)
         : path_(path),
-          name_(path.filename().string()),
           folder_(path.parent_path()),
-          city_(city),
           findings_(findings),
           progress_(progress),
-          first_object_(city.objects.size()) {
-        if (options.lod) {
-            Lod lod;
-            lod.text = *options.lod;
-            const auto parsed = std::from_chars(lod.text.data(), lod.text.data() + lod.text.size(), lod.value);
-            if (parsed.ec != std::errc() || parsed.ptr != lod.text.data() + lod.text.size() ||
-                !(lod.value >= 0.0 && lod.value < 10.0)) {
-                throw InputError(fmt::format("--lod {}: is no level of detail. Say 1, 1.3, 2, 2.2 …", lod.text));
-            }
-            choice_.asked = lod;
-        }
-    }
+          assembly_(path, city, findings),
+          name_(assembly_.name()),
+          choice_(lod_choice(options.lod)) {}
 
-    CityJsonFile read() {
+    ReadFile read() {
         file_.bytes = checked_file_size(path_);
-        const std::string head = head_of(path_);
-        if (head.find_first_not_of(" \t\r\n") == std::string::npos) {
-            throw InputError(fmt::format("{}: the file is empty. Is it a download that broke off?", path_.string()));
-        }
-        if (const std::string format = foreign_format(head); !format.empty()) {
-            throw InputError(fmt::format(
-                "{}: is {}, which this version does not read. It reads CityJSON 1.0, 1.1, 2.0 and CityJSONSeq; "
-                "citygml-tools turns CityGML into it.",
-                path_.string(), format));
-        }
         progress_.begin("read " + name_, std::max<std::uint64_t>(file_.bytes, 1));
         read_text();
-        finish();
-        file_.content_hash = mix64(hash_.state);
+        assembly_.finish({crs_, stated_extent_, transform_.translate});
+        file_.content_hash = hash_.value();
         return file_;
     }
 
@@ -231,7 +189,7 @@ class FileReader {
             progress_.advance(bytes / 2);
         });
         stop_if_asked();
-        const AppearanceMap map = add_appearance(feature.appearance.materials, feature.appearance.textures);
+        const AppearanceMap map = assembly_.add_appearance(feature.appearance.materials, feature.appearance.textures);
         for (FeatureResult& result : results) {
             findings_.merge(result.findings);
             for (ReadObject& object : result.objects) add_object(std::move(object), map, map);
@@ -427,7 +385,7 @@ class FileReader {
                 "#/transform is missing in the header of the sequence: the vertices of its features have no place "
                 "without it. Export it again.");
         }
-        template_map_ = add_appearance(appearance_.materials, appearance_.textures);
+        template_map_ = assembly_.add_appearance(appearance_.materials, appearance_.textures);
         std::size_t line_number = 2 + blank_lines_;
         std::vector<std::pair<std::size_t, std::string>> batch;
         std::size_t batch_bytes = 0;
@@ -470,7 +428,7 @@ class FileReader {
         stop_if_asked();
         for (FeatureResult& result : results) {
             findings_.merge(result.findings);
-            const AppearanceMap map = add_appearance(result.materials, result.textures);
+            const AppearanceMap map = assembly_.add_appearance(result.materials, result.textures);
             for (ReadObject& object : result.objects) add_object(std::move(object), map, template_map_);
         }
     }
@@ -513,99 +471,20 @@ class FileReader {
         return result;
     }
 
-    // --- into the city ------------------------------------------------------------------------------------------
-
-    struct AppearanceMap {
-        std::vector<MaterialId> materials;
-        std::vector<TextureId> textures;
-    };
-
-    /// Equal materials and textures become one: city models repeat them for each building.
-    AppearanceMap add_appearance(const std::vector<Material>& materials, const std::vector<Texture>& textures) {
-        if (!is_pool_ready_) {
-            for (std::size_t i = 0; i < city_.materials.size(); ++i)
-                material_ids_.emplace(key_of(city_.materials[i]), MaterialId(i));
-            for (std::size_t i = 0; i < city_.textures.size(); ++i)
-                texture_ids_.emplace(key_of(city_.textures[i]), TextureId(i));
-            is_pool_ready_ = true;
-        }
-        AppearanceMap map;
-        for (const Material& material : materials) {
-            const auto [entry, is_new] = material_ids_.emplace(key_of(material), MaterialId(city_.materials.size()));
-            if (is_new) city_.materials.push_back(material);
-            map.materials.push_back(entry->second);
-        }
-        for (const Texture& texture : textures) {
-            const auto [entry, is_new] = texture_ids_.emplace(key_of(texture), TextureId(city_.textures.size()));
-            if (is_new) city_.textures.push_back(texture);
-            map.textures.push_back(entry->second);
-        }
-        return map;
-    }
-
-    static std::string key_of(const Material& m) {
-        return fmt::format("{} {} {} {}", m.albedo.x, m.albedo.y, m.albedo.z, m.transparency);
-    }
-    static std::string key_of(const Texture& t) {
-        return fmt::format("{}|{}|{}|{} {} {}", t.path, t.path.empty() ? t.uri : "", static_cast<int>(t.wrap),
-                           t.border_color.x, t.border_color.y, t.border_color.z);
-    }
-
     void add_object(ReadObject read, const AppearanceMap& own, const AppearanceMap& of_templates) {
         const AppearanceMap& map = read.is_appearance_of_templates ? of_templates : own;
-        for (Surface& surface : read.object.geometry.surfaces) {
-            if (surface.material) surface.material = map.materials[surface.material->index()];
-            if (surface.texture) surface.texture = map.textures[surface.texture->index()];
-        }
-        for (std::string& lod : read.lods) lods_.insert(std::move(lod));
-        const bool is_group = read.object.type_name == "CityObjectGroup";  // a list of objects, no body of parts
-        for (std::string& child : read.children) {
-            if (!is_group) child_parent_.emplace(std::move(child), read.object.id);
-        }
-        has_only_flat_.push_back(read.has_only_flat);
-        city_.objects.push_back(std::move(read.object));
-    }
-
-    void finish() {
-        for (std::size_t i = first_object_; i < city_.objects.size(); ++i) {
-            CityObject& object = city_.objects[i];
-            if (!object.parent_id.empty()) continue;
-            const auto found = child_parent_.find(object.id);
-            if (found != child_parent_.end() && found->second != object.id) object.parent_id = found->second;
-        }
-        resolve_families(city_, first_object_, has_only_flat_, findings_);
-        make_ids_unique(city_, first_object_, findings_);
-        drop_bad_coordinates(city_, first_object_, findings_);
-        repair_offset(city_, first_object_, transform_.translate, stated_extent_, name_, findings_);
-
-        for (const std::string& lod : city_.lods) lods_.insert(lod);
-        city_.lods.assign(lods_.begin(), lods_.end());
-        std::stable_sort(city_.lods.begin(), city_.lods.end(), [](const std::string& a, const std::string& b) {
-            return std::strtod(a.c_str(), nullptr) < std::strtod(b.c_str(), nullptr);
-        });
-        if (!city_.files.empty() && !crs_.empty() && !city_.crs.empty() && crs_ != city_.crs) {
-            findings_.add(make_finding(
-                "SB306", name_,
-                fmt::format("names '{}', the files before it '{}'; taken as one system.", crs_, city_.crs)));
-        }
-        if (city_.crs.empty()) city_.crs = crs_;
-        if (stated_extent_) {
-            if (!city_.stated_extent) city_.stated_extent = Box3d();
-            city_.stated_extent->extend(*stated_extent_);
-        }
-        city_.files.push_back(path_.string());
+        assembly_.add(std::move(read), map);
     }
 
     std::filesystem::path path_;
-    std::string name_;
     std::filesystem::path folder_;
-    CityModel& city_;
     FindingLog& findings_;
     Progress& progress_;
-    std::size_t first_object_;
+    CityAssembly assembly_;
+    const std::string& name_;
     LodChoice choice_;
-    CityJsonFile file_;
-    Fnv hash_;
+    ReadFile file_;
+    ContentHash hash_;
     std::size_t blank_lines_ = 0;
 
     double version_ = 2.0;
@@ -617,19 +496,12 @@ class FileReader {
     Parsed template_text_;
     CityJsonTemplates templates_;
     AppearanceMap template_map_;
-
-    bool is_pool_ready_ = false;
-    std::unordered_map<std::string, MaterialId> material_ids_;
-    std::unordered_map<std::string, TextureId> texture_ids_;
-    std::set<std::string> lods_;
-    std::unordered_map<std::string, std::string> child_parent_;
-    std::vector<char> has_only_flat_;
 };
 
 }  // namespace
 
-CityJsonFile read_cityjson(const std::filesystem::path& path, const CityJsonOptions& options, CityModel& city,
-                           FindingLog& findings, Progress& progress) {
+ReadFile read_cityjson(const std::filesystem::path& path, const ReadOptions& options, CityModel& city,
+                       FindingLog& findings, Progress& progress) {
     return FileReader(path, options, city, findings, progress).read();
 }
 

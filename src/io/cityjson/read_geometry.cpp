@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 
 #include "city/finding_codes.h"
+#include "io/assembly/city_terms.h"
 
 namespace skybake::io {
 namespace {
@@ -28,37 +28,6 @@ std::vector<element> elements_of(const Optional& e) {
     if (!e || e->get_array().get(array) != simdjson::SUCCESS) return result;
     for (const element item : array) result.push_back(item);
     return result;
-}
-
-SurfaceType surface_type_from(std::string_view name) {
-    struct Entry {
-        std::string_view name;
-        SurfaceType type;
-    };
-    static constexpr std::array kTypes{
-        Entry{"RoofSurface", SurfaceType::roof},
-        Entry{"WallSurface", SurfaceType::wall},
-        Entry{"GroundSurface", SurfaceType::ground},
-        Entry{"ClosureSurface", SurfaceType::closure},
-        Entry{"OuterCeilingSurface", SurfaceType::ceiling},
-        Entry{"OuterFloorSurface", SurfaceType::floor},
-        Entry{"CeilingSurface", SurfaceType::ceiling},
-        Entry{"FloorSurface", SurfaceType::floor},
-        Entry{"InteriorWallSurface", SurfaceType::wall},
-        Entry{"Window", SurfaceType::window},
-        Entry{"Door", SurfaceType::door},
-        Entry{"WaterSurface", SurfaceType::water},
-        Entry{"WaterGroundSurface", SurfaceType::other},
-        Entry{"WaterClosureSurface", SurfaceType::closure},
-        Entry{"TrafficArea", SurfaceType::road},
-        Entry{"AuxiliaryTrafficArea", SurfaceType::road},
-        Entry{"TransportationMarking", SurfaceType::road},
-        Entry{"TransportationHole", SurfaceType::road},
-    };
-    for (const Entry& entry : kTypes) {
-        if (entry.name == name) return entry.type;
-    }
-    return SurfaceType::unknown;
 }
 
 /// The theme of `themes` that is named `preferred`, or the first one.
@@ -442,18 +411,10 @@ ReadGeometry read_instance(element instance, const GeometryContext& context, con
 std::optional<Lod> read_lod(element geometry) {
     const Optional lod = member(geometry, "lod");
     if (!lod) return std::nullopt;
-    Lod result;
     std::string_view text;
-    if (lod->get_string().get(text) == simdjson::SUCCESS) {
-        const auto parsed = std::from_chars(text.data(), text.data() + text.size(), result.value);
-        if (parsed.ec != std::errc() || parsed.ptr != text.data() + text.size()) return std::nullopt;
-        result.text = text;
-    } else if (lod->get_double().get(result.value) == simdjson::SUCCESS) {
-        result.text = fmt::format("{}", result.value);
-    } else {
-        return std::nullopt;
-    }
-    return std::isfinite(result.value) && result.value >= 0.0 ? std::optional(result) : std::nullopt;
+    if (lod->get_string().get(text) == simdjson::SUCCESS) return parse_lod(text);
+    double value = 0.0;
+    return lod->get_double().get(value) == simdjson::SUCCESS ? parse_lod(fmt::format("{}", value)) : std::nullopt;
 }
 
 ReadGeometry read_geometry(element geometry, const GeometryContext& context, const std::string& where,

@@ -10,6 +10,7 @@
 
 #include "base/finding.h"
 #include "city/city_model.h"
+#include "io/assembly/lod.h"
 #include "io/cityjson/read_appearance.h"
 
 namespace skybake::io {
@@ -43,10 +44,6 @@ ReadGeometry read_geometry(simdjson::dom::element element, const GeometryContext
 
 /// The LoD that a geometry states: its text as "2.2" and its value; none when it states none or something else than a
 /// number.
-struct Lod {
-    std::string text;
-    double value = 0.0;
-};
 std::optional<Lod> read_lod(simdjson::dom::element geometry);
 
 }  // namespace skybake::io

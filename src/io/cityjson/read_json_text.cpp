@@ -7,8 +7,6 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "base/error.h"
-
 namespace skybake::io {
 namespace {
 
@@ -178,21 +176,6 @@ std::string json_fault(std::string_view text, std::size_t first_line) {
     if (const std::size_t colon = reason.find("; last read"); colon != kNone && reason.size() > 200)
         reason.resize(colon);
     return fmt::format("line {}, column {}: {}", line, offset - line_begin + 1, reason);
-}
-
-std::uintmax_t checked_file_size(const std::filesystem::path& path) {
-    std::error_code error;
-    const std::filesystem::file_status status = std::filesystem::status(path, error);
-    if (error || !std::filesystem::exists(status)) {
-        throw InputError(fmt::format("{}: there is no such file.", path.string()));
-    }
-    if (std::filesystem::is_directory(status)) {
-        throw InputError(fmt::format("{}: is a folder; name the city files in it.", path.string()));
-    }
-    if (!std::filesystem::is_regular_file(status)) {
-        throw InputError(fmt::format("{}: is no regular file; write it to the disk first.", path.string()));
-    }
-    return std::filesystem::file_size(path);
 }
 
 }  // namespace skybake::io

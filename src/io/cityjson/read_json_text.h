@@ -1,7 +1,6 @@
 // JSON as text: cutting a large document into pieces without parsing it, and finding where a broken one breaks.
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -38,8 +37,5 @@ std::size_t length_of_value(std::string_view text);
 /// Where and why the text is not JSON: "line 3, column 17: syntax error …", or empty when it is. Lines and columns
 /// (bytes) count from 1, the first line as `first_line`.
 std::string json_fault(std::string_view text, std::size_t first_line = 1);
-
-/// Fails with an InputError when the file cannot be opened or is none; else its size in bytes.
-std::uintmax_t checked_file_size(const std::filesystem::path& path);
 
 }  // namespace skybake::io

@@ -3,60 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 
 #include "city/combine.h"
 #include "city/finding_codes.h"
+#include "io/assembly/city_terms.h"
 
 namespace skybake::io {
 namespace {
 
 using simdjson::dom::element;
-
-struct TypeEntry {
-    std::string_view name;
-    ObjectType type;
-    bool is_interior = false;
-};
-
-constexpr std::array kTypes{
-    TypeEntry{"Building", ObjectType::building},
-    TypeEntry{"BuildingPart", ObjectType::building_part},
-    TypeEntry{"BuildingInstallation", ObjectType::building_installation},
-    TypeEntry{"BuildingConstructiveElement", ObjectType::building_installation},
-    TypeEntry{"BuildingRoom", ObjectType::other, true},
-    TypeEntry{"BuildingFurniture", ObjectType::other, true},
-    TypeEntry{"BuildingStorey", ObjectType::other, true},
-    TypeEntry{"BuildingUnit", ObjectType::other, true},
-    TypeEntry{"IntBuildingInstallation", ObjectType::other, true},
-    TypeEntry{"Bridge", ObjectType::bridge},
-    TypeEntry{"BridgePart", ObjectType::bridge},
-    TypeEntry{"BridgeInstallation", ObjectType::bridge},
-    TypeEntry{"BridgeConstructionElement", ObjectType::bridge},
-    TypeEntry{"BridgeConstructiveElement", ObjectType::bridge},
-    TypeEntry{"BridgeRoom", ObjectType::other, true},
-    TypeEntry{"BridgeFurniture", ObjectType::other, true},
-    TypeEntry{"Tunnel", ObjectType::tunnel},
-    TypeEntry{"TunnelPart", ObjectType::tunnel},
-    TypeEntry{"TunnelInstallation", ObjectType::tunnel},
-    TypeEntry{"TunnelConstructiveElement", ObjectType::tunnel},
-    TypeEntry{"TunnelHollowSpace", ObjectType::other, true},
-    TypeEntry{"TunnelFurniture", ObjectType::other, true},
-    TypeEntry{"Road", ObjectType::road},
-    TypeEntry{"Railway", ObjectType::railway},
-    TypeEntry{"TransportSquare", ObjectType::square},
-    TypeEntry{"Waterway", ObjectType::water},
-    TypeEntry{"WaterBody", ObjectType::water},
-    TypeEntry{"LandUse", ObjectType::land_use},
-    TypeEntry{"PlantCover", ObjectType::plant_cover},
-    TypeEntry{"SolitaryVegetationObject", ObjectType::solitary_vegetation},
-    TypeEntry{"TINRelief", ObjectType::terrain},
-    TypeEntry{"CityFurniture", ObjectType::furniture},
-    TypeEntry{"GenericCityObject", ObjectType::generic},
-    TypeEntry{"OtherConstruction", ObjectType::other},
-    TypeEntry{"CityObjectGroup", ObjectType::other},
-};
 
 struct Candidate {
     element geometry;
@@ -107,30 +62,6 @@ std::vector<Candidate> candidates_of(element object, const GeometryContext& cont
     return candidates;
 }
 
-/// The LoD to take of those offered (not empty): the highest; or the asked one, for a whole number also its refinements
-/// (2 takes 2.2), else the nearest below, else the nearest above.
-Lod choose_lod(const std::vector<Candidate>& offered, const LodChoice& choice) {
-    const auto less = [](const Candidate& a, const Candidate& b) { return a.lod.value < b.lod.value; };
-    if (!choice.asked) return std::max_element(offered.begin(), offered.end(), less)->lod;
-    const double asked = choice.asked->value;
-    const bool is_whole = choice.asked->text.find('.') == std::string::npos;
-    const Candidate* best = nullptr;
-    const auto rank = [&](const Candidate& c) {  // lower is better
-        if (c.lod.value == asked) return 0.0;
-        if (is_whole && std::floor(c.lod.value) == asked) return 1.0 - (c.lod.value - asked) * 0.5;
-        return c.lod.value < asked ? 10.0 + (asked - c.lod.value) : 100.0 + (c.lod.value - asked);
-    };
-    for (const Candidate& candidate : offered) {
-        if (!best || rank(candidate) < rank(*best)) best = &candidate;
-    }
-    return best->lod;
-}
-
-bool fits(const Lod& taken, const Lod& asked) {
-    return taken.value == asked.value ||
-           (asked.text.find('.') == std::string::npos && std::floor(taken.value) == asked.value);
-}
-
 void read_strings(element object, std::string_view key, std::vector<std::string>& into) {
     simdjson::dom::array array;
     if (object[key].get_array().get(array) != simdjson::SUCCESS) return;
@@ -150,22 +81,21 @@ bool read_type(element e, CityObject& object, FindingLog& findings) {
     }
     const bool is_extension = name.substr(0, 1) == "+";
     object.type_name = name.substr(is_extension ? 1 : 0);
-    const auto* entry =
-        std::find_if(kTypes.begin(), kTypes.end(), [&](const TypeEntry& t) { return t.name == object.type_name; });
+    const std::optional<ObjectTerm> term = object_term(object.type_name);
     if (is_extension) {
         findings.add(make_finding("SB105", object.where,
                                   fmt::format("type '{}' is of an extension; read as a generic object.", name)));
         object.type = ObjectType::generic;
         return false;
     }
-    if (entry == kTypes.end()) {
+    if (!term) {
         findings.add(
             make_finding("SB106", object.where, fmt::format("type '{}' is unknown; read as a generic object.", name)));
         object.type = ObjectType::generic;
         return false;
     }
-    object.type = entry->type;
-    return entry->is_interior;
+    object.type = term->type;
+    return term->is_interior;
 }
 
 }  // namespace
@@ -203,7 +133,9 @@ ReadObject read_object(std::string_view id, element e, const GeometryContext& co
     }
     if (candidates.empty()) return result;
 
-    const Lod lod = choose_lod(candidates, choice);
+    std::vector<Lod> offered;
+    for (const Candidate& candidate : candidates) offered.push_back(candidate.lod);
+    const Lod lod = choose_lod(offered, choice);
     object.lod = lod.text;
     if (choice.asked && !fits(lod, *choice.asked)) {
         findings.add(

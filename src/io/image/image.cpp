@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstring>
+#include <fstream>
 
 #include "base/error.h"
 #include "io/file/replace_file.h"
@@ -72,6 +73,35 @@ Image8 decode_image(std::span<const std::uint8_t> bytes, const std::string& name
             break;
     }
     throw InputError(fmt::format("{}: is neither PNG nor JPEG. Convert the picture to one of them.", name));
+}
+
+std::optional<ImageSize> image_size(const std::filesystem::path& path) {
+    std::ifstream in(path, std::ios::binary);
+    std::array<std::uint8_t, 24> head{};
+    const auto read = [&](std::size_t count) {
+        in.read(reinterpret_cast<char*>(head.data()), static_cast<std::streamsize>(count));
+        return in.gcount() == static_cast<std::streamsize>(count);
+    };
+    const auto number = [&](std::size_t at, std::size_t bytes) {
+        std::uint32_t value = 0;
+        for (std::size_t i = 0; i < bytes; ++i) value = value << 8 | head[at + i];
+        return static_cast<int>(value & 0x7fffffffu);
+    };
+    if (!read(24)) return std::nullopt;
+    const ImageFormat format = image_format(head);
+    if (format == ImageFormat::png) return ImageSize{number(16, 4), number(20, 4)};
+    if (format != ImageFormat::jpeg) return std::nullopt;
+    in.seekg(2);
+    while (read(4) && head[0] == 0xff) {  // marker, length
+        const int marker = head[1];
+        const int length = number(2, 2);
+        const bool is_frame =
+            marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;  // SOF0 to SOF15
+        if (is_frame) return read(5) ? std::optional(ImageSize{number(3, 2), number(1, 2)}) : std::nullopt;
+        if (length < 2) return std::nullopt;
+        in.seekg(length - 2, std::ios::cur);
+    }
+    return std::nullopt;
 }
 
 Image8 read_image(const std::filesystem::path& path, std::uint64_t max_pixels) {

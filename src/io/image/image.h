@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -36,5 +37,12 @@ Image8 decode_image(std::span<const std::uint8_t> bytes, const std::string& name
 enum class ImageFormat : std::uint8_t { png, jpeg, other };
 /// By the first bytes of the file.
 ImageFormat image_format(std::span<const std::uint8_t> bytes);
+
+struct ImageSize {
+    int width = 0;
+    int height = 0;
+};
+/// What the head of a PNG or JPEG file states, without decoding it; none for other files.
+std::optional<ImageSize> image_size(const std::filesystem::path& path);
 
 }  // namespace skybake::io

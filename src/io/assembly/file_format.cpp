@@ -1,10 +1,26 @@
-#include "io/cityjson/read_format.h"
+#include "io/assembly/file_format.h"
+
+#include <fmt/format.h>
 
 #include <array>
+#include <fstream>
+
+#include "base/error.h"
 
 namespace skybake::io {
 
-std::string foreign_format(std::string_view head) {
+std::string head_of(const std::filesystem::path& path) {
+    std::ifstream in(path, std::ios::binary);
+    if (!in) throw InputError(fmt::format("{}: cannot be opened for reading.", path.string()));
+    std::string head(2048, '\0');
+    in.read(head.data(), static_cast<std::streamsize>(head.size()));
+    head.resize(static_cast<std::size_t>(in.gcount()));
+    if (head.find_first_not_of(" \t\r\n") == std::string::npos)
+        throw InputError(fmt::format("{}: the file is empty. Is it a download that broke off?", path.string()));
+    return head;
+}
+
+std::string format_of(std::string_view head) {
     struct Magic {
         std::string_view bytes, name;
     };
@@ -33,6 +49,8 @@ std::string foreign_format(std::string_view head) {
         if (head.substr(0, magic.bytes.size()) == magic.bytes) return std::string(magic.name);
     }
     if (head.substr(0, 3) == "\xEF\xBB\xBF") head.remove_prefix(3);
+    if (head.substr(0, 3) == std::string_view("\xFF\xFE<", 3) || head.substr(0, 4) == std::string_view("\xFE\xFF\0<", 4))
+        return "XML";  // UTF-16
     const std::size_t first = head.find_first_not_of(" \t\r\n");
     if (first == std::string_view::npos) return "";
     head.remove_prefix(first);
@@ -51,6 +69,21 @@ std::string foreign_format(std::string_view head) {
         if (contains("FeatureCollection")) return "GeoJSON";
     }
     return "";
+}
+
+std::uintmax_t checked_file_size(const std::filesystem::path& path) {
+    std::error_code error;
+    const std::filesystem::file_status status = std::filesystem::status(path, error);
+    if (error || !std::filesystem::exists(status)) {
+        throw InputError(fmt::format("{}: there is no such file.", path.string()));
+    }
+    if (std::filesystem::is_directory(status)) {
+        throw InputError(fmt::format("{}: is a folder; name the city files in it.", path.string()));
+    }
+    if (!std::filesystem::is_regular_file(status)) {
+        throw InputError(fmt::format("{}: is no regular file; write it to the disk first.", path.string()));
+    }
+    return std::filesystem::file_size(path);
 }
 
 }  // namespace skybake::io

@@ -1,0 +1,20 @@
+// Which format a file is, by its first bytes: to choose the reader, or to refuse it by name.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace skybake::io {
+
+/// The first bytes of a file (at most 2048). Throws InputError when it cannot be opened or is empty.
+std::string head_of(const std::filesystem::path& path);
+
+/// What the first bytes of a file look like: "CityGML", "Wavefront OBJ", "3D Tiles (b3dm)" …; empty when it may be
+/// CityJSON.
+std::string format_of(std::string_view head);
+
+/// Fails with an InputError when there is no such file, or it is none; else its size in bytes.
+std::uintmax_t checked_file_size(const std::filesystem::path& path);
+
+}  // namespace skybake::io
