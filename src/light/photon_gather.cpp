@@ -20,14 +20,11 @@ constexpr float kRoot = 0.70710678118654752f;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 // How many mean radii the search goes: a sixteenth of the mean density of photons still fills it.
 constexpr double kSearchRadii = 4.0;
-// Feelers fly this share of their length above the surface: over slopes that the plane's tolerance lets in, and kerbs.
-constexpr float kFeelerLift = 0.05f;
-
-/// Direction k at k · 45° from u.
-Vec2f direction_of(std::size_t k) {
-    static constexpr std::array<float, 8> kCosine{1, kRoot, 0, -kRoot, -1, -kRoot, 0, kRoot};
-    return {kCosine[k], kCosine[(k + 6) % 8]};
-}
+// Feelers reach this much farther than the photons: where they meet a wall, photons are looked for anew, up to here, so
+// that as many count as elsewhere.
+constexpr float kFeelerReach = 2.0f;
+// They fly this share of their length above the surface: over slopes that the plane's tolerance lets in, and kerbs.
+constexpr float kFeelerLift = 0.03f;
 
 Rgb flux_of(std::span<const NearPhoton> photons, std::span<const Photon> all) {
     Vec3d sum(0.0);
@@ -80,7 +77,7 @@ Rgb circle_irradiance(std::span<const NearPhoton> photons, std::span<const Photo
         polygon.emplace_back(radius * std::cos(turn * (i + 0.5)), radius * std::sin(turn * (i + 0.5)));
     for (std::size_t k = 0; k < 8; ++k) {
         if (!std::isfinite(window.limit[k])) continue;
-        const Vec2d direction(direction_of(k));
+        const Vec2d direction(surface_direction(k));
         const double limit = static_cast<double>(window.limit[k]);
         cut.clear();
         for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -111,45 +108,45 @@ PhotonGatherer::PhotonGatherer(const PhotonMap& map, const RayScene& rays, doubl
 Rgb PhotonGatherer::irradiance(const Vec3f& position, const Vec3f& normal, std::vector<NearPhoton>& found,
                                std::uint64_t& ray_count) const {
     const bool is_octagon = options_.area == PhotonArea::octagon;
+    const SurfaceMetric metric = is_octagon ? SurfaceMetric::octagon : SurfaceMetric::circle;
     const std::size_t wanted = static_cast<std::size_t>(options_.nearest);
-    map_.find_nearest(position, normal, is_octagon ? SurfaceMetric::octagon : SurfaceMetric::circle, wanted,
-                      max_distance_, found);
+    PhotonWindow window{max_distance_, no_limits()};
+    const auto search = [&](float max_distance) {
+        map_.find_nearest(position, normal, metric, wanted, max_distance, window.limit, found);
+        window.radius = found.size() == wanted ? found.front().distance : max_distance;
+    };
+    search(max_distance_);
     if (found.empty()) return Rgb(0.0f);
-    PhotonWindow window{max_distance_, {}};
-    window.limit.fill(kInfinity);
-    std::size_t first = 0;
-    if (found.size() == wanted) {
-        // The farthest photon ends the window and does not count: with it, (n)/A would be n/(n − 1) too bright.
-        window.radius = found.front().distance;
-        first = 1;
-    }
-
     if (options_.feelers > 0) {
-        // No farther than the photons.
-        float reach = 0.0f;
-        for (const NearPhoton& near : found) reach = std::max(reach, glm::length(near.offset));
-        const SurfaceAxes axes = surface_axes(normal);
-        const Vec3f origin = position + std::max(rays_.surface_offset(), kFeelerLift * reach) * normal;
-        for (std::size_t k = 0; k < 8; k += static_cast<std::size_t>(8 / options_.feelers)) {
-            const Vec2f along = direction_of(k);
-            const Vec3f direction = glm::normalize(along.x * axes.u + along.y * axes.v);
-            ++ray_count;
-            if (!rays_.is_occluded(origin, direction, reach)) continue;
-            ++ray_count;
-            if (const auto hit = rays_.first_hit(origin, direction)) window.limit[k] = hit->distance;
+        const float reach = kFeelerReach * window.radius;
+        if (find_limits(position, normal, reach, window, ray_count)) {
+            search(std::min(max_distance_, reach));
+            if (found.empty()) return Rgb(0.0f);
         }
-        const auto is_beyond = [&](const NearPhoton& near) {
-            for (std::size_t k = 0; k < 8; ++k) {
-                if (glm::dot(near.offset, direction_of(k)) > window.limit[k]) return true;
-            }
-            return false;
-        };
-        found.erase(std::remove_if(found.begin() + static_cast<std::ptrdiff_t>(first), found.end(), is_beyond),
-                    found.end());
     }
-    const std::span<const NearPhoton> counted = std::span(found).subspan(first);
+    // The farthest photon ends the window and does not count: with it, n/A would be n/(n − 1) too bright.
+    const std::span<const NearPhoton> counted = std::span(found).subspan(found.size() == wanted ? 1 : 0);
     return is_octagon ? octagon_irradiance(counted, map_.photons())
                       : circle_irradiance(counted, map_.photons(), window);
+}
+
+bool PhotonGatherer::find_limits(const Vec3f& position, const Vec3f& normal, float reach, PhotonWindow& window,
+                                 std::uint64_t& ray_count) const {
+    const SurfaceAxes axes = surface_axes(normal);
+    const Vec3f origin = position + std::max(rays_.surface_offset(), kFeelerLift * reach) * normal;
+    bool is_limited = false;
+    for (std::size_t k = 0; k < 8; k += static_cast<std::size_t>(8 / options_.feelers)) {
+        const Vec2f along = surface_direction(k);
+        const Vec3f direction = glm::normalize(along.x * axes.u + along.y * axes.v);
+        ++ray_count;
+        if (!rays_.is_occluded(origin, direction, reach)) continue;
+        ++ray_count;
+        if (const auto hit = rays_.first_hit(origin, direction)) {
+            window.limit[k] = hit->distance;
+            is_limited = true;
+        }
+    }
+    return is_limited;
 }
 
 double surface_area(const Scene& scene) {

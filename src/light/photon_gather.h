@@ -32,7 +32,7 @@ struct GatherOptions {
 /// 45° from u. All photons must lie in it.
 struct PhotonWindow {
     float radius = 0.0f;
-    std::array<float, 8> limit;  // infinite where nothing limits
+    SurfaceLimits limit = no_limits();
 };
 
 /// The octagon's estimate ΣΦ (m − b) / (m A) of m photons, b of which touch their bounding octagon of area A: the
@@ -49,13 +49,17 @@ class PhotonGatherer {
     /// of them on the mean.
     PhotonGatherer(const PhotonMap& map, const RayScene& rays, double area_m2, const GatherOptions& options);
 
-    /// Irradiance at a point of a surface of unit `normal`, lx per channel. Feelers leave from a little above the
-    /// surface and reach as far as the photons; beyond what they meet no photon counts, and the area ends there.
+    /// /// Irradiance at a point of a surface of unit `normal`, lx per channel. Feelers leave from a little above the
+    /// surface and reach twice as far as the photons; beyond what they meet no photon counts, the area ends there, and
+    /// others are looked for on this side, as far as the feelers.
     /// Adds the number of feelers traced to `ray_count`. `found` is scratch. Thread-safe.
     Rgb irradiance(const Vec3f& position, const Vec3f& normal, std::vector<NearPhoton>& found,
                    std::uint64_t& ray_count) const;
 
   private:
+    bool find_limits(const Vec3f& position, const Vec3f& normal, float reach, PhotonWindow& window,
+                     std::uint64_t& ray_count) const;
+
     const PhotonMap& map_;
     const RayScene& rays_;
     GatherOptions options_;

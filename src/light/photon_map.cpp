@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
 
 #include "base/box.h"
@@ -52,7 +53,7 @@ bool is_farther_last(const NearPhoton& a, const NearPhoton& b) {
 class Search {
   public:
     Search(std::span<const Photon> photons, const Vec3f& position, const Vec3f& normal, SurfaceMetric metric,
-           std::size_t count, float max_distance, std::vector<NearPhoton>& found)
+           std::size_t count, float max_distance, const SurfaceLimits& limit, std::vector<NearPhoton>& found)
         : photons_(photons),
           position_(position),
           normal_(normal),
@@ -60,6 +61,7 @@ class Search {
           metric_(metric),
           count_(count),
           reach_(max_distance),
+          limit_(limit),
           found_(found) {
         found_.clear();
         search(0, photons.size());
@@ -100,6 +102,9 @@ class Search {
         if (!(distance < reach_) || std::abs(glm::dot(off, normal_)) > kOffPlane + kOffPlaneSlope * distance ||
             glm::dot(photon.normal(), normal_) < kSameSideCosine)
             return;
+        for (std::size_t k = 0; k < limit_.size(); ++k) {
+            if (glm::dot(offset, surface_direction(k)) > limit_[k]) return;
+        }
         if (found_.size() == count_) {
             std::pop_heap(found_.begin(), found_.end(), is_farther_last);
             found_.pop_back();
@@ -115,6 +120,7 @@ class Search {
     SurfaceMetric metric_;
     std::size_t count_;
     float reach_;
+    SurfaceLimits limit_;
     std::vector<NearPhoton>& found_;
 };
 
@@ -128,14 +134,26 @@ SurfaceAxes surface_axes(const Vec3f& normal) {
     return {u, glm::cross(normal, u)};
 }
 
+SurfaceLimits no_limits() {
+    SurfaceLimits limits;
+    limits.fill(std::numeric_limits<float>::infinity());
+    return limits;
+}
+
+Vec2f surface_direction(std::size_t k) {
+    static constexpr float kRoot = 0.70710678118654752f;
+    static constexpr std::array<float, 8> kCosine{1, kRoot, 0, -kRoot, -1, -kRoot, 0, kRoot};
+    return {kCosine[k], kCosine[(k + 6) % 8]};
+}
+
 PhotonMap::PhotonMap(std::vector<Photon> photons) : photons_(std::move(photons)) {
     sort_range(photons_);
 }
 
 void PhotonMap::find_nearest(const Vec3f& position, const Vec3f& normal, SurfaceMetric metric, std::size_t count,
-                             float max_distance, std::vector<NearPhoton>& found) const {
+                             float max_distance, const SurfaceLimits& limit, std::vector<NearPhoton>& found) const {
     SKYBAKE_CHECK_LT(std::size_t{0}, count);
-    Search(photons_, position, normal, metric, count, max_distance, found);
+    Search(photons_, position, normal, metric, count, max_distance, limit, found);
 }
 
 }  // namespace skybake

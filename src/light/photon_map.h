@@ -1,6 +1,7 @@
 // Photons in space, and the nearest of them about a point of a surface.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -22,6 +23,13 @@ struct SurfaceAxes {
 };
 SurfaceAxes surface_axes(const Vec3f& normal);
 
+/// /// How far a surface is looked at along each of eight directions, k · 45° from u towards v: metres, infinite where
+/// nothing limits.
+using SurfaceLimits = std::array<float, 8>;
+SurfaceLimits no_limits();
+/// Unit direction k in the plane.
+Vec2f surface_direction(std::size_t k);
+
 /// A photon found: where it lies in the plane of the point that asked.
 struct NearPhoton {
     float distance = 0.0f;  // in the metric asked for, metres
@@ -41,9 +49,10 @@ class PhotonMap {
 
     /// The `count` nearest photons within `max_distance` that arrived on the same side of the same surface as the
     /// point: their normal differs from `normal` by less than 25°, and they lie off its plane by less than 2 cm and a
-    /// tenth of their distance along it. Replaces `found`, the farthest first.
+    /// tenth of /// their distance along it. None lies farther than `limit[k]` along direction k, at k · 45° from u.
+    /// Replaces `found`, the farthest first.
     void find_nearest(const Vec3f& position, const Vec3f& normal, SurfaceMetric metric, std::size_t count,
-                      float max_distance, std::vector<NearPhoton>& found) const;
+                      float max_distance, const SurfaceLimits& limit, std::vector<NearPhoton>& found) const;
 
   private:
     std::vector<Photon> photons_;

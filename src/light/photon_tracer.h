@@ -33,11 +33,13 @@ struct PhotonRun {
     PhotonLedger ledger;
 };
 
-/// Sun and sky shine through the faces of the scene's box, so that no photon starts where it could not meet the city;
-/// each source gets photons by its flux, so that all photons carry about the same. Within a source, places and
-/// directions of departure are a low-discrepancy sequence. A photon survives a reflection with the share of its
-/// luminous flux that is reflected and keeps its luminous flux when it does: the ledger closes for each photon. Photon
-/// i depends on the seed, the sources and i alone. Parallel; photons come in the order of i. Throws Interrupted.
+/// Sun and sky shine through the faces of the scene's box, so that no photon starts where it could not meet the city. A
+/// pilot run of a twentieth finds from where on the faces light comes to rest after a reflection: most photons start
+/// there, and few above open land; what they carry is weighed accordingly. Each source gets photons by its flux and
+/// their worth. Within a source, places and directions of departure are a low-discrepancy sequence. At its first
+/// reflection a photon loses what is absorbed; it survives each later one with the share of its luminous flux that is
+/// reflected, and keeps its flux when it does: the ledger closes for each photon. Photon i depends on the seed, the
+/// sources and i alone. Parallel; photons come in the order of i. Throws Interrupted.
 PhotonRun trace_photons(const LightSources& sources, const Scene& scene, const RayScene& rays,
                         const PhotonOptions& options, Progress& progress);
 

@@ -144,7 +144,7 @@ TEST(PhotonMap, FindsWhatASearchThroughAllFinds) {
             }
             std::sort(all.begin(), all.end());
             std::vector<NearPhoton> found;
-            map.find_nearest(at, {0, 0, 1}, metric, 30, 1e9f, found);
+            map.find_nearest(at, {0, 0, 1}, metric, 30, 1e9f, no_limits(), found);
             ASSERT_EQ(found.size(), 30u);
             for (std::size_t k = 0; k < 30; ++k) EXPECT_NEAR(found[29 - k].distance, all[k], 1e-5f);
         }

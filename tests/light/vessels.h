@@ -35,11 +35,12 @@ inline Scene sphere_inside(float radius, float albedo, float polar_end = static_
     return scene;
 }
 
-/// The centre of triangle `index`, facing the way that light can come from.
+/// The centre of the quad that triangle `index` belongs to, facing the way that light can come from. A triangle's own
+/// centre is off the quad's by a sixth, and its normal off the sphere's: half a per cent of light.
 inline std::pair<Vec3f, Vec3f> inner_point(const Scene& scene, std::size_t index, const Vec3f& center) {
-    const auto& t = scene.triangles[index];
-    const Vec3f position = (t[0] + t[1] + t[2]) / 3.0f;
-    const Vec3f normal = glm::normalize(glm::cross(t[1] - t[0], t[2] - t[0]));
+    const auto& t = scene.triangles[index / 2 * 2];
+    const Vec3f position = 0.5f * (t[0] + t[2]);
+    const Vec3f normal = glm::normalize(glm::cross(t[2] - t[0], scene.triangles[index / 2 * 2 + 1][2] - t[1]));
     return {position, glm::dot(normal, center - position) > 0.0f ? normal : -normal};
 }
 
