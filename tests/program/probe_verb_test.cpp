@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
@@ -59,8 +60,9 @@ class BoxCity {
     nlohmann::json objects_, vertices_ = nlohmann::json::array();
 };
 
-/// Skylight in lux at a point of the city under a uniform sky, as the CSV tells it.
-double sky_at(const BoxCity& city, std::array<double, 3> p, std::array<double, 3> n, int samples) {
+/// One column of the CSV for a point of the city under a uniform sky.
+std::map<std::string, double> probe(const BoxCity& city, std::array<double, 3> p, std::array<double, 3> n,
+                                    std::vector<std::string> options) {
     const TemporaryFolder place;
     std::ofstream(place / "c.city.json") << city.text();
     std::ofstream points(place / "p.csv");
@@ -68,19 +70,39 @@ double sky_at(const BoxCity& city, std::array<double, 3> p, std::array<double, 3
     points << "id,x,y,z,nx,ny,nz\na," << p[0] + BoxCity::kX << ',' << p[1] + BoxCity::kY << ',' << p[2] << ',' << n[0]
            << ',' << n[1] << ',' << n[2] << '\n';
     points.close();
-    Running program(place, {"probe", place.str("c.city.json"), "--points", place.str("p.csv"), "--sky",
-                            "uniform:luminance=1000", "--sun", "none", "--sky-samples", std::to_string(samples)});
+    std::vector<std::string> arguments{"probe", place.str("c.city.json"), "--points", place.str("p.csv"),
+                                       "--sky", "uniform:luminance=1000", "--sun",    "none"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    Running program(place, arguments);
     EXPECT_EQ(program.exit_code(), 0) << program.err();
     std::istringstream rows(program.out());
     std::string header, row;
     std::getline(rows, header);
     std::getline(rows, row);
     std::istringstream names(header), values(row);
-    for (std::string name, value; std::getline(names, name, ',') && std::getline(values, value, ',');) {
-        if (name == "sky_lx") return std::stod(value);
-    }
-    ADD_FAILURE() << "no sky_lx in: " << program.out();
-    return 0.0;
+    std::map<std::string, double> columns;
+    std::getline(names, header, ',');
+    std::getline(values, row, ',');
+    for (std::string name, value; std::getline(names, name, ',') && std::getline(values, value, ',');)
+        columns[name] = std::stod(value);
+    return columns;
+}
+
+/// Skylight in lux at a point of the city under a uniform sky, as the CSV tells it.
+double sky_at(const BoxCity& city, std::array<double, 3> p, std::array<double, 3> n, int samples) {
+    return probe(city, p, n, {"--sky-samples", std::to_string(samples)}).at("sky_lx");
+}
+
+/// A free wall before open ground of albedo 0.3 gets, from below, half of ρπL by one reflection.
+TEST(ProbeVerbIndirect, GroundLightsAWall) {
+    const auto light = probe(BoxCity(1500).box({-5, -5, 0}, {5, 5, 20}), {0, -5, 10}, {0, -1, 0},
+                             {"--indirect", "reference", "--bounces", "1", "--paths", "20000", "--albedo", "0.3"});
+    const double truth = 0.5 * 0.3 * kOpen;
+    // The box hides part of the sky from the ground before it: as much as a tenth at its foot, far less on the whole.
+    EXPECT_NEAR(light.at("indirect_lx"), truth, 4.0 * light.at("indirect_error_lx") + 0.1 * truth);
+    EXPECT_LT(light.at("indirect_lx"), truth);
+    EXPECT_GT(light.at("indirect_error_lx"), 0.0);
+    EXPECT_NEAR(light.at("total_lx"), light.at("sky_lx") + light.at("indirect_lx"), 1e-2);
 }
 
 struct SamplesAndBound {

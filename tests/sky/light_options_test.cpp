@@ -46,15 +46,6 @@ TEST(ParseAlbedo, Refuses) {
     EXPECT_THAT(refusal([] { parse_albedo("roof=0.3,roof=0.2"); }), HasSubstr("'roof' is given twice"));
 }
 
-TEST(LightOptions, BounceMethodsOfLaterVersionsAreRefused) {
-    LightOptions options = with_sun();
-    EXPECT_EQ(refusal([&] { check_light_options(options); }), "accepted");
-    options.indirect = "photons";
-    EXPECT_THAT(refusal([&] { check_light_options(options); }), HasSubstr("this version computes direct light only"));
-    options.indirect = "photos";
-    EXPECT_THAT(refusal([&] { check_light_options(options); }), HasSubstr("did you mean 'photons'?"));
-}
-
 // Truth: what is wrong by itself is found before a city is read; that the CRS gives no site is found after.
 TEST(LightOptions, AreCheckedBeforeAndAfterTheCityIsRead) {
     LightOptions options;
