@@ -48,12 +48,13 @@ void add_bounce_options(CLI::App* verb, BounceOptions& options) {
         ->capture_default_str();
 }
 
-void add_reference_options(CLI::App* verb, BounceOptions& options) {
+void add_point_options(CLI::App* verb, BounceOptions& options) {
     verb->add_option("--paths", options.paths, "paths per point of --indirect reference")
         ->group(kGroup)
         ->type_name("N")
         ->check(CLI::Range(2, 1 << 30))
         ->capture_default_str();
+    verb->add_option("--lamps", options.lamps, "JSON with point and spot lights")->group(kGroup)->type_name("FILE");
 }
 
 Indirect indirect_of(const BounceOptions& options) {

@@ -1,4 +1,4 @@
-// skybake probe: light at free points: sun and sky by the estimators of the bake, reflected light by paths.
+// skybake probe: light at free points: sun and sky by the estimators of the bake, lamps, and reflected light.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -10,6 +10,7 @@
 #include "base/threads.h"
 #include "bounce_options.h"
 #include "city_options.h"
+#include "io/lamps/lamps_json.h"
 #include "io/points/points_csv.h"
 #include "light/point_light.h"
 #include "light_options.h"
@@ -76,15 +77,18 @@ int run(const CommonOptions& common, const Options& options) {
     const Daylight& daylight = daylights.front();
     const std::vector<PointLight> light =
         light_points(receivers, sampler, 0, daylight.sun, rays, {options.light.sky_samples, 64});
+    LightSources sources{daylight, {}};
+    if (!options.bounce.lamps.empty()) sources.lamps = io::read_lamps(options.bounce.lamps, scene.origin);
+    const std::vector<Rgb> by_lamps = light_points_by_lamps(receivers, sources.lamps, rays);
     std::vector<IndirectLight> reflected(receivers.size());
     nlohmann::json bounces;
     if (indirect == Indirect::photons) {
         const BouncePhotons settings = photons_of(options.bounce, common.seed);
-        reflected = indirect_by_photons(receivers, {daylight, {}}, scene, rays, settings, progress, bounces);
+        reflected = indirect_by_photons(receivers, sources, scene, rays, settings, progress, bounces);
     }
     if (indirect == Indirect::reference)
-        reflected = trace_indirect(receivers, {daylight, {}}, scene, rays, path_options_of(options.bounce, common.seed),
-                                   progress);
+        reflected =
+            trace_indirect(receivers, sources, scene, rays, path_options_of(options.bounce, common.seed), progress);
     std::vector<io::ProbeLight> rows;
     for (std::size_t i = 0; i < light.size(); ++i) {
         const PointLight& point = light[i];
@@ -93,7 +97,8 @@ int run(const CommonOptions& common, const Options& options) {
         row.indirect_error_lx = static_cast<double>(reflected[i].standard_error_lx);
         row.sun_lx = static_cast<double>(luminance(point.sun));
         row.sky_lx = static_cast<double>(luminance(point.sky));
-        row.total = point.sun + point.sky + reflected[i].irradiance;
+        row.lamps_lx = static_cast<double>(luminance(by_lamps[i]));
+        row.total = point.sun + point.sky + by_lamps[i] + reflected[i].irradiance;
         row.sun_visible = static_cast<double>(point.sun_visible);
         row.sky_view_factor = static_cast<double>(point.sky_view_factor);
         rows.push_back(row);
@@ -132,7 +137,7 @@ void add_probe(CLI::App& app, Program& program) {
     add_city_options(verb, options->city);
     add_light_options(verb, options->light);
     add_bounce_options(verb, options->bounce);
-    add_reference_options(verb, options->bounce);
+    add_point_options(verb, options->bounce);
     verb->add_option("--points", options->points, "CSV with the points")->required();
     verb->add_option("-o,--output", options->output, "CSV to write; without it, stdout");
 }

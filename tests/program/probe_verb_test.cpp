@@ -93,6 +93,33 @@ double sky_at(const BoxCity& city, std::array<double, 3> p, std::array<double, 3
     return probe(city, p, n, {"--sky-samples", std::to_string(samples)}).at("sky_lx");
 }
 
+/// Lamps by the inverse square law, and their light reflected once by open ground into nothing: all of it is direct.
+TEST(ProbeVerbLamps, FollowTheInverseSquare) {
+    const TemporaryFolder place;
+    const auto lamps = [&](double x, double y, const std::string& rest) {
+        return nlohmann::json::parse(R"({"id": "l)" + std::to_string(x) + R"(", "position": [)" +
+                                     std::to_string(x + BoxCity::kX) + "," + std::to_string(y + BoxCity::kY) + ",4]," +
+                                     rest + "}");
+    };
+    std::ofstream(place / "lamps.json") << nlohmann::json{
+        {"lamps",
+         {lamps(0, 0, R"("type": "point", "intensity_cd": 1000, "color_temperature_k": 3000)"),
+          lamps(3, 0,
+                R"("type": "spot", "flux_lm": 628.3185307, "direction": [0, 0, -1], "cone_half_angle_deg": 90)")}}};
+    const auto light = probe(BoxCity(50), {0, 0, 0}, {0, 0, 1}, {"--lamps", place.str("lamps.json")});
+    // The spot shines into half of all directions: 100 cd, at 5 m under the cosine 0.8.
+    EXPECT_NEAR(light.at("lamps_lx"), 1000.0 / 16.0 + 100.0 * 0.8 / 25.0, 0.02);
+    EXPECT_NEAR(light.at("total_lx"), light.at("sky_lx") + light.at("lamps_lx"), 0.02);
+    std::ofstream(place / "broken.json") << R"({"lamps": [{"id": "a", "type": "point", "position": [0, 0, 0]}]})";
+    std::ofstream(place / "c.city.json") << BoxCity(50).text();
+    std::ofstream(place / "p.csv") << "id,x,y,z,nx,ny,nz\n";
+    Running refused(place, {"probe", place.str("c.city.json"), "--points", place.str("p.csv"), "--sky",
+                            "uniform:luminance=1000", "--sun", "none", "--lamps", place.str("broken.json")});
+    EXPECT_EQ(refused.exit_code(), 2);
+    EXPECT_NE(refused.err().find("lamp 1: needs one of 'intensity_cd' and 'flux_lm'"), std::string::npos)
+        << refused.err();
+}
+
 /// A free wall before open ground of albedo 0.3 gets, from below, half of ρπL by one reflection.
 TEST(ProbeVerbIndirect, GroundLightsAWall) {
     const auto light = probe(BoxCity(1500).box({-5, -5, 0}, {5, 5, 20}), {0, -5, 10}, {0, -1, 0},
