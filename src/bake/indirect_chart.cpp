@@ -15,8 +15,8 @@ namespace {
 
 constexpr int kCell = 16;  // texels between nodes
 // Corners may differ by this many tolerances: what is linear between them is interpolated without error, and the centre
-// tells what is not. Box town at 0.25 m, tolerance 1 %: a span of 1 gathers at 63 % of the texels for an error of 0.25 %
-// of the light, a span of 4 at 42 % for 0.64 %.
+// tells what is not. Box town at 0.25 m, tolerance 1 %: a span of 1 gathers at 63 % of the texels for an error of 0.25
+// % of the light, a span of 4 at 42 % for 0.64 %.
 constexpr float kCornerSpan = 4.0f;
 
 /// One cell of the lattice with its border: texels (column, row) to (column + width, row + height) inclusive.
