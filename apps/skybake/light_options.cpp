@@ -78,10 +78,6 @@ void add_light_options(CLI::App* verb, LightOptions& options) {
         ->type_name("N")
         ->check(CLI::Range(1, 1 << 20))
         ->capture_default_str();
-    verb->add_option("--indirect", options.indirect, "none, photons or reference; this version: none")
-        ->group(group)
-        ->type_name("METHOD")
-        ->capture_default_str();
     verb->add_option("--albedo", options.albedo, "R,G,B or default=0.3,roof=0.4,ground=0.2 (linear, 0..1)")
         ->group(group)
         ->type_name("ALBEDO");
@@ -126,16 +122,6 @@ void check_light_options(const LightOptions& options) {
         FindingLog unheard;  // only for the errors: what is found is reported when the daylight is made
         make_daylights(settings, std::nullopt, 0.0, unheard);
     }
-    if (options.indirect == "none") return;
-    const std::vector<std::string> known = {"none", "photons", "reference"};
-    if (std::find(known.begin(), known.end(), options.indirect) == known.end()) {
-        throw InputError(fmt::format("--indirect '{}' is unknown; did you mean '{}'?", options.indirect,
-                                     nearest_word(options.indirect, known)));
-    }
-    throw InputError(
-        fmt::format("--indirect {}: this version computes direct light only, from sun and sky. Leave the option out, "
-                    "or write --indirect none.",
-                    options.indirect));
 }
 
 std::vector<Daylight> daylights_of(const LightOptions& options, const std::optional<Site>& site_from_crs,

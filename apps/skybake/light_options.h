@@ -26,13 +26,12 @@ struct LightOptions {
     std::string weather;
     std::string sun = "point";
     int sky_samples = 1024;  // directions per texel
-    std::string indirect = "none";
     std::string albedo;
 };
 
 /// --at, --timezone, --site, --sun-direction, --sky and --weather.
 void add_daylight_options(CLI::App* verb, LightOptions& options);
-/// The above, and --sun, --sky-samples, --indirect and --albedo.
+/// The above, and --sun, --sky-samples and --albedo.
 void add_light_options(CLI::App* verb, LightOptions& options);
 
 /// Throws InputError for whatever is wrong with the options by themselves, so that a long run does not find it out

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "api/default_views.h"
+#include "api/load_albedo.h"
 #include "base/error.h"
 #include "sky/sky_panorama.h"
 #include "sky/utc_time.h"
@@ -97,11 +98,12 @@ BakeCityResult bake_city(const BakeCityOptions& options, Progress& progress) {
                        loaded.georeference.convergence_rad, result.findings);
 
     const auto build_begin = Clock::now();
-    const Scene scene = build_scene(loaded.city, scene_options(options.albedo, options.texel_m), result.findings);
+    Scene scene = build_scene(loaded.city, scene_options(options.albedo, options.texel_m), result.findings);
     loaded.city = CityModel();  // its memory is wanted for the light
     if (scene.triangles.empty())
         throw InputError(fmt::format("{}: no surface is left to light; see the findings of skybake check.",
                                      options.files.front().string()));
+    if (options.bake.bounces) load_albedo_images(scene, result.findings, progress);
     const RayScene rays(scene);
     result.report.seconds.build = seconds_since(build_begin);
 

@@ -117,6 +117,7 @@ inline constexpr std::array kFindingCodes{
                 "Nothing to do: light does not pass through surfaces in this version."},
     FindingCode{"SB407", Severity::info, "several themes; one of them is used",
                 "Name the wanted one as default-theme-material or default-theme-texture."},
+    FindingCode{"SB408", Severity::warning, "texture image cannot be read", "Save the image again as PNG or JPEG."},
 
     FindingCode{"SB501", Severity::warning, "city has no ground",
                 "Pass --ground plane or --ground draped to add one that receives light and shadow."},
