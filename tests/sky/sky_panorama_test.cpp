@@ -69,6 +69,7 @@ double disc_illuminance(const Picture& picture, const Pixel& pixel_view, const D
             const std::size_t i = static_cast<std::size_t>(row * width + column);
             if (with_sun[i] == sky_alone[i]) continue;
             const PixelView view = pixel_view(width, column, row);
+            if (view.direction.z < 0.0) continue;  // the land, which the sun lights
             EXPECT_GT(glm::dot(view.direction, Vec3d(day.sun.direction)), nearest);
             sum += view.solid_angle * static_cast<double>(luminance(with_sun[i] - sky_alone[i]));
         }
