@@ -380,12 +380,16 @@ void add_sky(CLI::App& app, Program& program) {
         "  skybake sky --weather graz.epw --at 2026-06-21T12:00+02:00",
         [options, &program] { return run_sky(*options, program.common); });
     add_daylight_options(verb, options->light);
+    verb->add_option("--sun", options->light.sun,
+                     "none leaves the sun's disc, and its light on the land, out of pictures")
+        ->group("Light")
+        ->type_name("SHAPE")
+        ->capture_default_str();
     verb->add_option("--directions", options->directions,
                      "CSV with azimuth_deg,elevation_deg; answers as CSV on stdout; - is stdin")
         ->type_name("CSV");
     verb->add_option("-o,--output", options->picture,
-                     "panorama, or a strip of several instants: .png (tone mapped) or .exr (cd/m2 per channel); "
-                     "--sun none leaves the sun's disc out")
+                     "panorama, or a strip of several instants: .png (tone mapped) or .exr (cd/m2 per channel)")
         ->type_name("FILE");
     verb->add_option("--projection", options->projection,
                      "equirectangular (whole sphere, with land of albedo 0.2) or fisheye (the dome)")

@@ -77,19 +77,31 @@ struct Light {
 };
 
 std::vector<Light> lights_of(const Daylight& light) {
-    constexpr int kHeights = 24;  // of the whole sphere, in equal solid angles
+    constexpr int kHeights = 24;  // of the whole sphere, in equal solid angles of 7°
     constexpr int kAzimuths = 32;
     const double solid_angle = 4.0 * kPi / (kHeights * kAzimuths);
+    // A picture's own sun would be hit or missed by the middles alone.
+    const int samples = std::holds_alternative<ImageSky>(light.sky) ? 32 : 1;
+    const auto direction_of = [](double height, double azimuth) {
+        const double z = -1.0 + 2.0 * height / kHeights;
+        const double r = std::sqrt(1.0 - z * z);
+        const double turn = 2.0 * kPi * azimuth / kAzimuths;
+        return Vec3d(r * std::sin(turn), r * std::cos(turn), z);
+    };
     const Vec3d land(land_luminance(light));
     std::vector<Light> lights;
     for (int h = 0; h < kHeights; ++h) {
-        const double z = -1.0 + 2.0 * (h + 0.5) / kHeights;
-        const double r = std::sqrt(1.0 - z * z);
         for (int a = 0; a < kAzimuths; ++a) {
-            const double azimuth = 2.0 * kPi * (a + 0.5) / kAzimuths;
-            const Vec3d direction(r * std::sin(azimuth), r * std::cos(azimuth), z);
-            const Vec3d luminance = z > 0.0 ? Vec3d(sky_luminance(light.sky, Vec3f(direction))) : land;
-            lights.push_back({direction, luminance * solid_angle});
+            Vec3d luminance = land;
+            if (h >= kHeights / 2) {
+                luminance = Vec3d(0.0);
+                for (int i = 0; i < samples * samples; ++i) {
+                    const Vec3d point =
+                        direction_of(h + (i % samples + 0.5) / samples, a + (i / samples + 0.5) / samples);
+                    luminance += Vec3d(sky_luminance(light.sky, Vec3f(point))) / static_cast<double>(samples * samples);
+                }
+            }
+            lights.push_back({direction_of(h + 0.5, a + 0.5), luminance * solid_angle});
         }
     }
     if (light.sun.shape != SunShape::none)
