@@ -102,7 +102,7 @@ TEST_F(BakeFolder, LightComesBackBitForBit) {
             const StoredLight light = read_light(stored, i, p);
             EXPECT_EQ(light.sky, bake.light.instants[i].pages[p].sky);
             for (std::size_t t = 0; t < light.total.size(); ++t) {
-                ASSERT_EQ(light.total[t], total_irradiance(bake.light.instants[i], p, t));
+                ASSERT_EQ(light.total[t], total_irradiance(bake.light, i, p, t));
                 ASSERT_EQ(light.sun[t], bake.light.instants[i].pages[p].sun_cosine[t] *
                                             bake.light.instants[i].daylight.sun.normal_illuminance);
             }
@@ -196,7 +196,7 @@ TEST_F(BakeFolder, ExposureHintBringsMeanWhiteToOneHalf) {
     for (std::size_t p = 0; p < 2; ++p) {
         for (std::size_t t = 0; t < bake.light.pages[p].state.size(); ++t) {
             if (bake.light.pages[p].state[t] != TexelState::chart) continue;
-            sum += static_cast<double>(luminance(total_irradiance(bake.light.instants[0], p, t))) / kPi / 1000.0;
+            sum += static_cast<double>(luminance(total_irradiance(bake.light, 0, p, t))) / kPi / 1000.0;
             count += 1.0;
         }
     }

@@ -31,6 +31,10 @@ std::vector<float> indirect_scales_klx(const Lightmaps& light, std::size_t insta
 Image8 indirect_picture(const Lightmaps& light, std::size_t instant, std::size_t page,
                         const std::vector<float>& scales_klx);
 
+/// The same of the lamps' direct light, which all instants share. Of bakes with lamps.
+std::vector<float> lamp_scales_klx(const Lightmaps& light, std::size_t chart_count);
+Image8 lamps_picture(const LightmapPage& page, const std::vector<float>& scales_klx);
+
 /// Sun cosine over the chart's scale, linear grey.
 Image8 sun_picture(const Lightmaps& light, std::size_t instant, std::size_t page,
                    const std::vector<ChartScale>& scales);
