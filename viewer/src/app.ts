@@ -1,5 +1,6 @@
 import { Bake } from './core/bake';
 import { clampEv } from './core/exposure';
+import { lightParts, type LightPart } from './core/light_parts';
 import { LoadError } from './core/load_error';
 import { pictures, type Mode, type Picture } from './core/pictures';
 import { text } from './core/text';
@@ -74,6 +75,7 @@ export class App {
         mode: (mode) => this.setMode(mode),
         view: (index) => this.showView(index),
         ev: (ev) => this.setEv(ev),
+        part: (part, isOn) => this.switchPart(part, isOn),
       },
     );
     document.body.append(this.panel.opener, this.panel.root, this.makePad());
@@ -107,6 +109,11 @@ export class App {
 
   setEv(ev: number): void {
     this.viewer.ev = clampEv(ev);
+    this.refresh();
+  }
+
+  switchPart(part: LightPart, isOn: boolean): void {
+    this.viewer.off = lightParts.filter((other) => (other === part ? !isOn : this.viewer.off.includes(other)));
     this.refresh();
   }
 
@@ -158,6 +165,7 @@ export class App {
   private restore(state: Partial<ViewState>): void {
     if (state.picture) this.viewer.picture = state.picture;
     if (state.ev !== undefined) this.viewer.ev = clampEv(state.ev);
+    this.viewer.off = state.off ?? [];
     if (state.position && state.target) {
       const isWalking = state.mode === 'walk' && this.viewer.walkFrom({ position: state.position, target: state.target });
       if (!isWalking) this.viewer.lookAt(state.position, state.target);
@@ -183,7 +191,7 @@ export class App {
 
   private refresh(): void {
     const { viewer } = this;
-    this.panel?.update({ instant: Math.max(0, viewer.instant), picture: viewer.picture, mode: viewer.mode, ev: viewer.ev, exposure: viewer.exposure });
+    this.panel?.update({ instant: Math.max(0, viewer.instant), picture: viewer.picture, mode: viewer.mode, ev: viewer.ev, exposure: viewer.exposure, parts: this.bake?.partsOf(Math.max(0, viewer.instant)) ?? [], off: viewer.off });
     this.help.textContent = text.help[viewer.mode];
     this.canvas.dataset['mode'] = viewer.mode;
     this.viewChanged();
@@ -202,7 +210,7 @@ export class App {
     this.linkTimer ??= window.setTimeout(() => {
       this.linkTimer = null;
       const { viewer } = this;
-      const link = formatViewState({ ...viewer.view, mode: viewer.mode, picture: viewer.picture, instant: viewer.instant, ev: viewer.ev });
+      const link = formatViewState({ ...viewer.view, mode: viewer.mode, picture: viewer.picture, instant: viewer.instant, ev: viewer.ev, off: viewer.off });
       history.replaceState(null, '', link);
     }, linkIntervalMs);
   }
