@@ -144,18 +144,23 @@ Image8 sky_view_picture(const LightmapPage& page) {
 }
 
 double exposure_hint(const Lightmaps& light, std::size_t instant) {
-    double sum_lx = 0.0;
+    double sum_lx = 0.0, lamps_sum = 0.0, lamps_squares = 0.0;
     std::uint64_t count = 0;
     for (std::size_t p = 0; p < light.pages.size(); ++p) {
         for (std::size_t t = 0; t < light.pages[p].state.size(); ++t) {
             if (light.pages[p].state[t] != TexelState::chart) continue;
             sum_lx += static_cast<double>(luminance(total_irradiance(light, instant, p, t)));
             ++count;
+            if (light.pages[p].lamps.empty()) continue;
+            const double lamps_lx = static_cast<double>(luminance(light.pages[p].lamps[t]));
+            lamps_sum += lamps_lx;
+            lamps_squares += lamps_lx * lamps_lx;
         }
     }
     if (count == 0 || !(sum_lx > 0.0)) return 1.0;
-    const double mean_luminance_kcd = sum_lx / static_cast<double>(count) / 1000.0 / kPi;
-    return 0.5 / mean_luminance_kcd;
+    const double mean_lx = sum_lx / static_cast<double>(count);
+    const double under_lamps_lx = lamps_sum > 0.0 ? lamps_squares / lamps_sum : 0.0;
+    return 0.5 / ((mean_lx + under_lamps_lx) / 1000.0 / kPi);
 }
 
 std::uint16_t half_from_float(float value) {
