@@ -404,8 +404,8 @@ Surroundings around(const CityModel& city, const Vec3d& p) {
     return found;
 }
 
-/// Lamps hang free of all walls, in no house and under no roof, 4 to 7 m above the ground (the relief is triangulated,
-/// their height is not), and light the town's streets: one each 25 m.
+/// Lamps hang free of all walls, in no house and under no roof, 4 to 7 m above the ground
+/// (the relief is triangulated, their height is not), and light the town's streets: one each 25 m.
 TEST(TownLamps, HangFreeAboutTwentyFiveMetresApart) {
     const Town& town = small_town();
     ASSERT_GT(town.lamps.size(), 50u);
@@ -414,7 +414,7 @@ TEST(TownLamps, HangFreeAboutTwentyFiveMetresApart) {
         EXPECT_TRUE(ids.insert(lamp.id).second) << lamp.id;
         const Surroundings about = around(town.city, lamp.position);
         EXPECT_EQ(about.faces_above % 2, 0) << lamp.id << " is inside a house";
-        EXPECT_GT(about.wall_m, 1.2) << lamp.id;
+        EXPECT_GT(about.wall_m, 1.2) << lamp.id;  // half of the narrowest lane less its eaves
         EXPECT_LE(lamp.color_temperature_k, 3000.0);
         double nearest = 1e9;
         for (const StreetLamp& other : town.lamps) {

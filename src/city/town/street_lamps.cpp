@@ -61,21 +61,20 @@ void light_streets(Placer& placer, const Layout& layout, std::size_t index) {
     for (std::size_t e = 0; e < cell.land.size() && !cell.half_street.empty(); ++e) {
         const Vec2d a = cell.land.corner(e), b = cell.land.corner(e + 1);
         const std::string id = fmt::format("lamp-{}-{}", cell.name, e);
-        const Vec2d inward = left_of(glm::normalize(b - a));
-        const double half = cell.half_street[e];
         const int label = cell.land.labels[e];
         if (label == kRiverbank) {
             constexpr double kFromBank = 1.2;
+            const Vec2d inward = left_of(glm::normalize(b - a));
             if (is_built(layout, index)) placer.along(id, a + kFromBank * inward, b + kFromBank * inward, kStreet);
             continue;
         }
         const auto other = static_cast<std::size_t>(label);
-        // Towards open land there is half a street alone; else the neighbour of the lower number lights both halves.
+        // The neighbour of the lower number lights both halves; towards open land there is half a street alone, whose
+        // lamps stand at its outer edge.
         const bool is_whole = other < layout.cells.size() && !layout.cells[other].half_street.empty();
         if (is_whole && other < index) continue;
         if (!is_built(layout, index) && !(is_whole && is_built(layout, other))) continue;
-        const Vec2d shift = is_whole ? Vec2d(0.0) : 0.5 * half * inward;
-        placer.along(id, a + shift, b + shift, half < kLaneHalfWidth ? kLane : kStreet);
+        placer.along(id, a, b, cell.half_street[e] < kLaneHalfWidth ? kLane : kStreet);
     }
 }
 
