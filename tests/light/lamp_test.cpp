@@ -111,9 +111,10 @@ TEST(LampSamples, HaveTheirDensity) {
             worst = std::max(worst, ratio);
         }
         EXPECT_NEAR(sum / (kSide * kSide) / effective_solid_angle(lamp), 1.0, 1e-3);
-        // Photons of nearly one flux: within a cell of 2° the share of the lambertian differs from its mean by little.
+        // Photons of nearly one flux: at worst twice the mean, where in the last cell before γ = 90° the share falls
+        // from twice the cell's mean to 0. Evenly over the sphere it would be four times.
         if (lamp.type == Lamp::Type::profile) {
-            EXPECT_LT(worst / effective_solid_angle(lamp), 1.05);
+            EXPECT_LT(worst / effective_solid_angle(lamp), 2.0);
         }
     }
 }
