@@ -1,5 +1,6 @@
 import { Bake, type BakedInstant } from './core/bake';
 import { clampEv } from './core/exposure';
+import { lightParts, type LightPart } from './core/light_parts';
 import { LoadError } from './core/load_error';
 import { pictures, type Mode, type Picture } from './core/pictures';
 import { text } from './core/text';
@@ -82,6 +83,7 @@ export class App {
         view: (index) => this.showView(index),
         ev: (ev) => this.setEv(ev),
         air: (isSeen) => this.setAir(isSeen),
+        part: (part, isOn) => this.switchPart(part, isOn),
       },
     );
     document.body.append(this.panel.opener, this.panel.root, this.makePad());
@@ -121,6 +123,11 @@ export class App {
 
   setAir(isSeen: boolean): void {
     this.viewer.air = isSeen;
+    this.refresh();
+  }
+
+  switchPart(part: LightPart, isOn: boolean): void {
+    this.viewer.off = lightParts.filter((other) => (other === part ? !isOn : this.viewer.off.includes(other)));
     this.refresh();
   }
 
@@ -173,6 +180,7 @@ export class App {
     if (state.picture) this.viewer.picture = state.picture;
     if (state.ev !== undefined) this.viewer.ev = clampEv(state.ev);
     if (state.air !== undefined) this.viewer.air = state.air;
+    this.viewer.off = state.off ?? [];
     if (state.position && state.target) {
       const isWalking = state.mode === 'walk' && this.viewer.walkFrom({ position: state.position, target: state.target });
       if (!isWalking) this.viewer.lookAt(state.position, state.target);
@@ -198,7 +206,7 @@ export class App {
 
   private refresh(): void {
     const { viewer } = this;
-    this.panel?.update({ instant: Math.max(0, viewer.instant), picture: viewer.picture, mode: viewer.mode, ev: viewer.ev, exposure: viewer.exposure, air: viewer.air });
+    this.panel?.update({ instant: Math.max(0, viewer.instant), picture: viewer.picture, mode: viewer.mode, ev: viewer.ev, exposure: viewer.exposure, air: viewer.air, parts: this.bake?.partsOf(Math.max(0, viewer.instant)) ?? [], off: viewer.off });
     this.help.textContent = text.help[viewer.mode];
     this.canvas.dataset['mode'] = viewer.mode;
     this.viewChanged();
@@ -217,7 +225,7 @@ export class App {
     this.linkTimer ??= window.setTimeout(() => {
       this.linkTimer = null;
       const { viewer } = this;
-      const link = formatViewState({ ...viewer.view, mode: viewer.mode, picture: viewer.picture, instant: viewer.instant, ev: viewer.ev, air: viewer.air });
+      const link = formatViewState({ ...viewer.view, mode: viewer.mode, picture: viewer.picture, instant: viewer.instant, ev: viewer.ev, air: viewer.air, off: viewer.off });
       history.replaceState(null, '', link);
     }, linkIntervalMs);
   }

@@ -18,6 +18,10 @@ inline std::string base(std::size_t page) {
 inline std::string sky_view(std::size_t page) {
     return fmt::format("light/p{}_svf.png", page);
 }
+inline std::string lamps(std::size_t page) {
+    return fmt::format("light/p{}_lamps.png", page);
+}
+inline const char* const kLampScales = "light/lamp_scales.bin";
 inline std::string light(std::size_t instant, std::size_t page) {
     return fmt::format("light/i{}_p{}.exr", instant, page);
 }

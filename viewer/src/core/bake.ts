@@ -2,6 +2,7 @@ import { parseAirlight, type Airlight } from './air';
 import { fetchBytes, type OnBytes } from './fetch';
 import type { Manifest } from './generated/manifest';
 import validateManifest from './generated/validate_manifest.js';
+import { lightParts, type LightPart } from './light_parts';
 import { LoadError } from './load_error';
 import { Panorama } from './panorama';
 import { text } from './text';
@@ -18,6 +19,13 @@ export interface InstantLight {
   /** Null in a bake without a sky. */
   airlight: Airlight | null;
   pages: { sky: EncodedPage; sun: EncodedPage; indirect: EncodedPage | null }[];
+}
+
+/** Direct light of lamps, the same at all instants. */
+export interface LampLight {
+  /** One a chart: scale of the lamps' page (klx). */
+  scales: Float32Array<ArrayBuffer>;
+  pages: EncodedPage[];
 }
 
 export interface EncodedPage {
@@ -96,6 +104,31 @@ export class Bake {
 
   fetch(uri: string, onBytes: OnBytes, signal?: AbortSignal): Promise<Uint8Array<ArrayBuffer>> {
     return fetchBytes(this.url(uri), this.bytesOf(uri), onBytes, signal);
+  }
+
+  /** The parts of light that are in the files of an instant, or of all. */
+  partsOf(index: number): LightPart[] {
+    const instant = this.instant(index);
+    const has: Record<LightPart, boolean> = {
+      sun: instant.sun.shape !== 'none' && instant.sun.normal_illuminance_klx.some((klx) => klx > 0),
+      sky: true,
+      indirect: instant.indirect_scales !== undefined,
+      lamps: this.manifest.lamp_scales !== undefined,
+    };
+    return lightParts.filter((part) => has[part]);
+  }
+
+  /** The lamps' light; null in a bake without lamps. Throws LoadError. */
+  async loadLamps(onBytes: OnBytes): Promise<LampLight | null> {
+    const { lamp_scales: scales, pages, charts } = this.manifest;
+    if (!scales) return null;
+    return {
+      scales: parseScales(this.url(scales.uri), await this.fetch(scales.uri, onBytes), charts),
+      pages: await Promise.all(pages.map(async ({ lamps, width, height }) => {
+        if (lamps === undefined) throw new LoadError(this.manifestUrl, text.error.noLampPage);
+        return { url: this.url(lamps), bytes: await this.fetch(lamps, onBytes), width, height };
+      })),
+    };
   }
 
   /** All files of an instant at once. Throws LoadError; rejects when `signal` aborts. */

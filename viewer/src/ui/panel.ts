@@ -1,4 +1,5 @@
 import { evRange } from '../core/exposure';
+import { lightParts, type LightPart } from '../core/light_parts';
 import { modes, pictures, type Mode, type Picture } from '../core/pictures';
 import { text } from '../core/text';
 import { element } from './element';
@@ -10,6 +11,7 @@ export interface PanelActions {
   view(index: number): void;
   ev(ev: number): void;
   air(isSeen: boolean): void;
+  part(part: LightPart, isOn: boolean): void;
 }
 
 export interface PanelState {
@@ -19,6 +21,9 @@ export interface PanelState {
   ev: number;
   exposure: number;
   air: boolean;
+  /** Parts of light that the instant has, and those that are switched off. */
+  parts: readonly LightPart[];
+  off: readonly LightPart[];
 }
 
 export interface PanelContent {
@@ -37,6 +42,7 @@ export class Panel {
   private readonly earlier: HTMLButtonElement;
   private readonly later: HTMLButtonElement;
   private readonly pictureButtons = new Map<Picture, HTMLButtonElement>();
+  private readonly partButtons = new Map<LightPart, HTMLButtonElement>();
   private readonly modeButtons = new Map<Mode, HTMLButtonElement>();
   private readonly viewSelect: HTMLSelectElement;
   private readonly evSlider: HTMLInputElement;
@@ -63,6 +69,12 @@ export class Panel {
       const button = element('button', { type: 'button', title: `${text.pictureHints[picture]} (${i + 1})` }, [text.pictures[picture]]);
       button.addEventListener('click', () => actions.picture(picture));
       this.pictureButtons.set(picture, button);
+      return button;
+    }));
+    const partGroup = element('div', { class: 'group' }, lightParts.map((part) => {
+      const button = element('button', { type: 'button', title: text.partHints[part] }, [text.partNames[part]]);
+      button.addEventListener('click', () => actions.part(part, button.getAttribute('aria-pressed') !== 'true'));
+      this.partButtons.set(part, button);
       return button;
     }));
     const modeGroup = element('div', { class: 'group' }, modes.map((mode) => {
@@ -102,6 +114,7 @@ export class Panel {
       element('div', { class: 'field' }, last > 0 ? [...instantFields, this.instantSlider] : instantFields),
       this.sunNote,
       element('fieldset', { class: 'field' }, [element('legend', {}, [text.picture]), pictureGroup]),
+      element('fieldset', { class: 'field' }, [element('legend', {}, [text.parts]), partGroup]),
       element('fieldset', { class: 'field' }, [element('legend', {}, [text.navigation]), modeGroup]),
       element('div', { class: 'field' }, [element('label', { for: 'view' }, [text.views]), this.viewSelect]),
       element('div', { class: 'field' }, [
@@ -138,6 +151,10 @@ export class Panel {
     this.later.disabled = state.instant >= this.instantSelect.options.length - 1;
     for (const [picture, button] of this.pictureButtons) button.setAttribute('aria-pressed', String(picture === state.picture));
     for (const [mode, button] of this.modeButtons) button.setAttribute('aria-pressed', String(mode === state.mode));
+    for (const [part, button] of this.partButtons) {
+      button.hidden = !state.parts.includes(part);
+      button.setAttribute('aria-pressed', String(!state.off.includes(part)));
+    }
     const isExposed = state.picture !== 'textures';
     this.evSlider.value = String(state.ev);
     this.evSlider.disabled = !isExposed;

@@ -7,6 +7,7 @@ import type { Browser, Page } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 import { parseAirlight } from '../../src/core/air';
 import type { TestHook } from '../../src/test_hook';
+import type { LightPart } from '../../src/core/light_parts';
 import { srgbEncode } from '../../src/core/units';
 import { findChromium, launch, openPage } from '../support/chromium';
 import { viewThrough } from '../support/air';
@@ -82,7 +83,11 @@ describe.skipIf(!chromium)('the walkthrough of the synthetic bake', () => {
     fs.rmSync(folder, { recursive: true, force: true });
   });
 
-  test('a white wall of known light gives the pixel that paper and pencil give', async () => {
+  test.each([
+    ['all of its light', []],
+    ['no lamps', ['lamps']],
+    ['the lamp alone', ['sun', 'sky']],
+  ] as const)('a white wall of known light gives the pixel that paper and pencil give, with %s', async (_, off) => {
     const [x, y, z] = whiteCard.center;
     await page.evaluate(([cx, cy, cz]) => {
       window.skybake!.setToneMapping('none');
@@ -90,20 +95,24 @@ describe.skipIf(!chromium)('the walkthrough of the synthetic bake', () => {
       window.skybake!.setAir(false);
       window.skybake!.setCamera([cx!, cy! - 3, cz!], [cx!, cy!, cz!]);
     }, [x, y, z]);
-    const exposure = await page.evaluate(() => {
-      window.skybake!.setExposure(-2.5); // bright light, but below the clip
+    const exposure = await page.evaluate((parts) => {
+      for (const part of parts) window.skybake!.setPart(part, false);
+      window.skybake!.setExposure(parts.length > 1 ? 1.5 : -2.5); // bright light, but below the clip
       return window.skybake!.exposure();
-    });
+    }, off);
     const block = 16;
     const pixels = await page.evaluate(([px, py, n]) => window.skybake!.readPixels(px!, py!, n!, n!), [size.width / 2 - 8, size.height / 2 - 8, block]);
-    await page.evaluate(() => {
+    await page.evaluate((parts) => {
+      for (const part of parts) window.skybake!.setPart(part, true);
       window.skybake!.setToneMapping('agx');
       window.skybake!.setExposure(0);
       window.skybake!.setAir(true);
-    });
+    }, off);
+    const isOn = (part: LightPart) => (off as readonly LightPart[]).includes(part) ? 0 : 1;
     for (let c = 0; c < 3; ++c) {
-      // L = (E_sky + cos·E_sun) / π for albedo 1, then exposure, sRGB, 8 bit.
-      const illuminance = whiteCard.skyKlx[c]! + whiteCard.sunCosine * fixtureBeam[c]!;
+      // L = (E_sky + cos·E_sun + E_lamps) / π for albedo 1, then exposure, sRGB, 8 bit.
+      const illuminance =
+        isOn('sky') * whiteCard.skyKlx[c]! + isOn('sun') * whiteCard.sunCosine * fixtureBeam[c]! + isOn('lamps') * whiteCard.lampKlx[c]!;
       const expected = 255 * srgbEncode((illuminance / Math.PI) * exposure);
       expect(expected).toBeLessThan(250);
       expect(expected).toBeGreaterThan(60);

@@ -49,7 +49,9 @@ export function fixtureAir(instant: number): NonNullable<Instant['air']> {
 /** The white card stands free and faces south; its light is written down, not computed. */
 export const whiteCard = {
   center: [-20, -20, 2] as V3,
-  skyKlx: [8, 10, 12] as V3,
+  skyKlx: [5, 8, 11] as V3,
+  /** Of a lamp that lights nothing else. */
+  lampKlx: [3, 2, 1] as V3,
   sunCosine: 0.5,
 };
 
@@ -239,6 +241,19 @@ export function writeFixture(folder: string): Manifest {
     return texels;
   });
 
+  const lampScale = Math.max(...whiteCard.lampKlx);
+  const lampPages = pages.map(({ width, height }) => new Uint8Array(width * height * 3));
+  for (const chart of charts.filter(({ face }) => face.light)) {
+    for (let row = -gutter; row < chart.rows + gutter; ++row) {
+      for (let column = -gutter; column < chart.columns + gutter; ++column) {
+        const at = (chart.y + row) * pages[chart.page]!.width + chart.x + column;
+        lampPages[chart.page]!.set(whiteCard.lampKlx.map((e) => Math.round(255 * srgbEncode(e / lampScale))), 3 * at);
+      }
+    }
+  }
+  pages.forEach((page, p) => write(`light/p${p}_lamps.png`, encodePng({ ...page, channels: 3, pixels: lampPages[p]! })));
+  write('light/lamp_scales.bin', Buffer.from(new Float32Array(charts.map(({ face }) => (face.light ? lampScale : 0))).buffer));
+
   const manifestInstants = instants.map((instant, i): Instant => {
     const scales = new Float32Array(charts.length * 2);
     const sky = pages.map(({ width, height }) => new Uint8Array(width * height * 3));
@@ -261,7 +276,8 @@ export function writeFixture(folder: string): Manifest {
         }
       }
       for (const texel of own) {
-        luminanceSum += luminance(add(texel.sky, instant.beam, texel.sunCosine)) / Math.PI;
+        const lamp: V3 = chart.face.light ? whiteCard.lampKlx : [0, 0, 0];
+        luminanceSum += luminance(add(add(texel.sky, lamp), instant.beam, texel.sunCosine)) / Math.PI;
         ++texels;
       }
     });
@@ -311,8 +327,9 @@ export function writeFixture(folder: string): Manifest {
     inputs: [],
     isa: 'none',
     units: { illuminance: 'lx', luminance: 'cd/m2', length: 'm', angle: 'degree', color: 'linear Rec. 709, photometric: 0.2126 R + 0.7152 G + 0.0722 B is the illuminance or luminance' },
-    pages: pages.map(({ width, height }, p) => ({ width, height, base: `light/p${p}_base.exr`, svf: `light/p${p}_svf.png` })),
+    pages: pages.map(({ width, height }, p) => ({ width, height, base: `light/p${p}_base.exr`, svf: `light/p${p}_svf.png`, lamps: `light/p${p}_lamps.png` })),
     charts: charts.length,
+    lamp_scales: { uri: 'light/lamp_scales.bin' },
     instants: manifestInstants,
     views: [
       { name: 'From the south-east', position: [70, -85, 55], target: [0, 0, 4] },
