@@ -37,7 +37,7 @@ void add_bounce_options(CLI::App* verb, BounceOptions& options) {
         ->check(CLI::Range(10, 100000))
         ->capture_default_str();
     verb->add_option("--area", options.area,
-                     "of these photons: their extended bounding octagon, or the circle about the point")
+                     "of these photons: their convex hull or bounding octagon, extended, or the circle about the point")
         ->group(kGroup)
         ->check(CLI::IsMember(std::vector<std::string>(kPhotonAreaNames.begin(), kPhotonAreaNames.end())))
         ->capture_default_str();
@@ -46,14 +46,14 @@ void add_bounce_options(CLI::App* verb, BounceOptions& options) {
         ->group(kGroup)
         ->check(CLI::IsMember({0, 4, 8}))
         ->capture_default_str();
-}
-
-void add_point_options(CLI::App* verb, BounceOptions& options) {
-    verb->add_option("--paths", options.paths, "paths per point of --indirect reference")
+    verb->add_option("--paths", options.paths, "paths per point or texel of --indirect reference")
         ->group(kGroup)
         ->type_name("N")
         ->check(CLI::Range(2, 1 << 30))
         ->capture_default_str();
+}
+
+void add_point_options(CLI::App* verb, BounceOptions& options) {
     verb->add_option("--lamps", options.lamps, "JSON with point and spot lights")->group(kGroup)->type_name("FILE");
 }
 
@@ -69,8 +69,12 @@ Indirect indirect_of(const BounceOptions& options) {
 std::vector<std::pair<std::string, std::string>> settings_of(const BounceOptions& options) {
     std::vector<std::pair<std::string, std::string>> settings{{"indirect", options.indirect}};
     if (options.indirect == "none") return settings;
-    settings.insert(settings.end(), {{"bounces", std::to_string(options.bounces)},
-                                     {"photons", std::to_string(options.photons)},
+    settings.emplace_back("bounces", std::to_string(options.bounces));
+    if (options.indirect == "reference") {
+        settings.emplace_back("paths", std::to_string(options.paths));
+        return settings;
+    }
+    settings.insert(settings.end(), {{"photons", std::to_string(options.photons)},
                                      {"nearest", std::to_string(options.nearest)},
                                      {"area", options.area},
                                      {"feelers", std::to_string(options.feelers)}});

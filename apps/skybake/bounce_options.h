@@ -27,9 +27,9 @@ struct BounceOptions {
     std::string lamps;  // file; empty: none
 };
 
-/// --indirect, --bounces, --photons, --nearest, --area and --feelers.
+/// --indirect, --bounces, --photons, --nearest, --area, --feelers and --paths.
 void add_bounce_options(CLI::App* verb, BounceOptions& options);
-/// --paths and --lamps.
+/// --lamps.
 void add_point_options(CLI::App* verb, BounceOptions& options);
 
 /// Throws InputError for a method that there is not, naming the nearest.
