@@ -50,7 +50,7 @@ Site site_of(const std::array<double, 2>& degrees) {
 std::optional<BounceOptions> bounces_of(const Bake& settings) {
     if (settings.indirect == "none") return std::nullopt;
     if (settings.bounces < 1 || settings.bounces > 1000) throw InputError("bake: bounces must lie between 1 and 1000.");
-    if (settings.photons < 1 || settings.photons > 1'000'000'000)
+    if (settings.photons && (*settings.photons < 1 || *settings.photons > 1'000'000'000))
         throw InputError("bake: photons must lie between 1 and 1 000 000 000.");
     if (settings.paths < 2 || settings.paths > 1 << 30)
         throw InputError("bake: paths must lie between 2 and 1 073 741 824.");
@@ -131,7 +131,9 @@ BakeResult bake(const Bake& settings) {
                             {"lod", settings.lod},
                             {"indirect", settings.indirect}};
         if (options.bake.bounces) options.settings.emplace_back("bounces", std::to_string(settings.bounces));
-        if (settings.indirect == "photons") options.settings.emplace_back("photons", std::to_string(settings.photons));
+        if (settings.indirect == "photons")
+            options.settings.emplace_back("photons",
+                                          settings.photons ? std::to_string(*settings.photons) : "20 per m2");
         if (settings.indirect == "reference") options.settings.emplace_back("paths", std::to_string(settings.paths));
         CallbackProgress progress(settings.progress);
         const BakeCityResult result = bake_city(options, progress);

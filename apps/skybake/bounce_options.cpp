@@ -26,11 +26,12 @@ void add_bounce_options(CLI::App* verb, BounceOptions& options) {
         ->type_name("N")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
-    verb->add_option("--photons", options.photons, "photons that sun, sky and lamps send out, for each instant")
+    verb->add_option("--photons", options.photons,
+                     "photons that sun, sky and lamps send out, for each instant; default: 20 a m2 of surface, at "
+                     "least 1 million")
         ->group(kGroup)
         ->type_name("N")
-        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}))
-        ->capture_default_str();
+        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}));
     verb->add_option("--nearest", options.nearest, "photons that count at a point")
         ->group(kGroup)
         ->type_name("N")
@@ -74,7 +75,7 @@ std::vector<std::pair<std::string, std::string>> settings_of(const BounceOptions
         settings.emplace_back("paths", std::to_string(options.paths));
         return settings;
     }
-    settings.insert(settings.end(), {{"photons", std::to_string(options.photons)},
+    settings.insert(settings.end(), {{"photons", options.photons ? std::to_string(*options.photons) : "20 per m2"},
                                      {"nearest", std::to_string(options.nearest)},
                                      {"area", options.area},
                                      {"feelers", std::to_string(options.feelers)}});

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -19,8 +20,9 @@ enum class Indirect { none, photons, reference };
 struct BounceOptions {
     std::string indirect = "none";
     int bounces = 8;
-    int paths = 1024;  // per point, of the reference
-    std::uint64_t photons = 1'000'000;
+    int paths = 1024;                      // per point, of the reference
+    std::optional<std::uint64_t> photons;  // without: 20 a square metre of surface
+
     int nearest = 100;
     std::string area{kPhotonAreaNames[0]};
     int feelers = 8;

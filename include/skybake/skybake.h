@@ -65,8 +65,9 @@ struct Bake {
     double tolerance = 0.01;             // of the hierarchies, relative
     std::string indirect = "none";       // reflected light: "photons" or "reference" (unbiased paths, slow)
     int bounces = 8;                     // reflections at most
-    std::uint64_t photons = 1'000'000;   // for each instant
-    int paths = 1024;                    // per texel, of the reference
+    std::optional<std::uint64_t>
+        photons;       // for each instant; default: 20 a square metre of surface, at least 1 million
+    int paths = 1024;  // per texel, of the reference
     std::uint64_t seed = 0;
     /// Called now and then with the stage's name and the share done, 0…1, from any thread; return false to stop.
     std::function<bool(const std::string& stage, double share)> progress;
@@ -81,9 +82,9 @@ struct BakeResult {
     std::vector<Note> findings;
 };
 
-/// Reads the city, computes sun, sky and what is reflected, and writes the folder of the bake (docs/formats.md; the walkthrough's own
-/// files are added by the program `skybake`). Throws Error for unusable input, and when `progress` returned false. Two
-/// bakes in one process do not meet.
+/// Reads the city, computes sun, sky and what is reflected, and writes the folder of the bake (docs/formats.md; the
+/// walkthrough's own files are added by the program `skybake`). Throws Error for unusable input, and when `progress`
+/// returned false. Two bakes in one process do not meet.
 SKYBAKE_API BakeResult bake(const Bake& settings);
 
 }  // namespace skybake::api

@@ -8,6 +8,7 @@
 
 #include "light/path_reference.h"
 #include "light/photon_map.h"
+#include "light/surfaces.h"
 #include "trace/ray_scene.h"
 
 namespace skybake {
@@ -71,9 +72,6 @@ class PhotonGatherer {
     GatherOptions options_;
     float max_distance_;
 };
-
-/// Surface of the scene, both-sided triangles counted once, m².
-double surface_area(const Scene& scene);
 
 /// The same at free points; parallel.
 std::vector<IndirectLight> gather_indirect(std::span<const ReceiverPoint> points, const PhotonGatherer& gatherer,
