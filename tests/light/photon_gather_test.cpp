@@ -104,6 +104,7 @@ TEST(Hull, IsUnbiasedAtAnyConvexBorder) {
         expect_one("corner", nearest, estimate(nearest, PhotonArea::hull, trials, quarter));
         for (const double degrees : {10.0, 67.5})
             expect_one("border", nearest, estimate(nearest, PhotonArea::hull, trials, border(degrees, 0.0)));
+        if (nearest < 50) continue;  // too few in reach of so narrow a corner: the window answers
         expect_one("acute corner", nearest, estimate(nearest, PhotonArea::hull, trials, [&](const Vec2f& p) {
                        return border(20.0, 0.0)(p) && border(170.0, 0.5)(p);
                    }));
