@@ -51,6 +51,7 @@ StoredBake from_json(const std::filesystem::path& folder, const nlohmann::json& 
         stored.label = instant.at("label").get<std::string>();
         for (const nlohmann::json& page : instant.at("pages"))
             stored.pages.push_back(file_in(folder, page.at("exr").get<std::string>()));
+        stored.has_indirect = instant.contains("indirect_scales");
         if (stored.pages.size() != bake.pages.size()) {
             throw InputError(fmt::format("{}: the instant '{}' has {} pages, and the atlas {}.", name, stored.label,
                                          stored.pages.size(), bake.pages.size()));
@@ -69,7 +70,8 @@ void check_size(const ExrReader& reader, const std::filesystem::path& path, cons
 }  // namespace
 
 std::array<std::string, 3> channel_names(LightPart part) {
-    const std::string layer = part == LightPart::total ? "" : part == LightPart::sun ? "sun." : "sky.";
+    static constexpr std::array kLayers{"", "sun.", "sky.", "indirect."};
+    const std::string layer = kLayers[static_cast<std::size_t>(part)];
     return {layer + "R", layer + "G", layer + "B"};
 }
 
@@ -126,8 +128,11 @@ StoredLight read_light(const StoredBake& bake, std::size_t instant, std::size_t 
     check_size(reader, path, stored);
     StoredLight light;
     std::vector<ExrReader::Target> targets;
-    for (const auto& [part, pixels] :
-         {std::pair{LightPart::total, &light.total}, {LightPart::sun, &light.sun}, {LightPart::sky, &light.sky}}) {
+    for (const auto& [part, pixels] : {std::pair{LightPart::total, &light.total},
+                                       {LightPart::sun, &light.sun},
+                                       {LightPart::sky, &light.sky},
+                                       {LightPart::indirect, &light.indirect}}) {
+        if (part == LightPart::indirect && !bake.instants[instant].has_indirect) continue;
         pixels->resize(static_cast<std::size_t>(stored.width) * static_cast<std::size_t>(stored.height));
         const std::array<std::string, 3> names = channel_names(part);
         for (std::size_t c = 0; c < 3; ++c)

@@ -21,6 +21,7 @@ struct StoredPage {
 struct StoredInstant {
     std::string label;
     std::vector<std::filesystem::path> pages;  // EXR with the light, one a page
+    bool has_indirect = false;                 // the EXRs hold reflected light too
 };
 
 /// What the manifest says of the pages; the pages themselves are read one by one, since a city's may not fit into
@@ -34,7 +35,7 @@ struct StoredBake {
 };
 
 /// Names of the channels of a light EXR: R, G, B of the part.
-enum class LightPart : std::uint8_t { total, sun, sky };
+enum class LightPart : std::uint8_t { total, sun, sky, indirect };
 std::array<std::string, 3> channel_names(LightPart part);
 
 /// Irradiance of one instant on one page, lx per channel; width × height entries each, row 0 on top.
@@ -42,6 +43,7 @@ struct StoredLight {
     std::vector<Rgb> total;
     std::vector<Rgb> sun;
     std::vector<Rgb> sky;
+    std::vector<Rgb> indirect;  // empty in a bake without reflected light
 };
 
 /// Reads the manifest. Throws InputError when the folder holds no whole bake, or one of another version.
