@@ -14,6 +14,7 @@
 #include "city/georeference.h"
 #include "city/ground.h"
 #include "city/repair.h"
+#include "io/assembly/city_assembly.h"
 
 namespace skybake {
 
@@ -21,6 +22,8 @@ struct LoadOptions {
     std::optional<std::string> lod;  // "2.2"; without one the highest of each object
     GroundChoice ground = GroundChoice::none;
     double ground_margin_m = 30.0;
+    std::optional<std::string> crs;  // instead of what the files name
+    io::MeshPlacement placement;     // of files without a place (OBJ)
 };
 
 struct InputFile {

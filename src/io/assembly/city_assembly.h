@@ -16,9 +16,18 @@
 
 namespace skybake::io {
 
+enum class UpAxis : std::uint8_t { y, z };
+
+/// Where a mesh lies whose file says nothing of a place: turned to z up, then moved by `origin`, metres.
+struct MeshPlacement {
+    UpAxis up = UpAxis::z;
+    Vec3d origin{0.0};
+};
+
 struct ReadOptions {
     /// The wanted LoD as "2.2", "1" …; without one the highest that each object offers.
     std::optional<std::string> lod;
+    MeshPlacement placement;
 };
 
 struct ReadFile {
