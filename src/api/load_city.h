@@ -22,8 +22,8 @@ struct LoadOptions {
     std::optional<std::string> lod;  // "2.2"; without one the highest of each object
     GroundChoice ground = GroundChoice::none;
     double ground_margin_m = 30.0;
-    std::optional<std::string> crs;  // instead of what the files name
-    io::MeshPlacement placement;     // of files without a place (OBJ)
+    std::optional<std::string> crs{};  // instead of what the files name
+    io::MeshPlacement placement{};     // of files without a place (OBJ)
 };
 
 struct InputFile {

@@ -9,7 +9,6 @@
 #include <sstream>
 
 #include "base/hash_rng.h"
-
 #include "cityjson/temporary_city.h"
 #include "test_data.h"
 

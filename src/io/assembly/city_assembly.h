@@ -27,7 +27,7 @@ struct MeshPlacement {
 struct ReadOptions {
     /// The wanted LoD as "2.2", "1" …; without one the highest that each object offers.
     std::optional<std::string> lod;
-    MeshPlacement placement;
+    MeshPlacement placement{};
 };
 
 struct ReadFile {

@@ -23,6 +23,8 @@ namespace {
 
 /// Between two looks at whether the user wants to stop.
 constexpr std::size_t kLinesPerLook = 4096;
+/// A mesh states no LoD; it counts as a body.
+constexpr int kMeshLod = 1;
 
 /// What a material's name says of its object: CityGML's terms and 3dfier's ("ForestWall" is the wall below a forest).
 std::optional<ObjectTerm> term_of_material(std::string_view name) {
@@ -239,7 +241,7 @@ class ObjReader {
         if (term_ && ids_.count(object.id) > 0) object.id = fmt::format("{}/{}", object.id, object.type_name);
         ids_.insert(object.id);
         object.where = fmt::format("{}: line {}: {} '{}'", assembly_.name(), line_, object.type_name, object.id);
-        object.lod = "1";
+        object.lod = fmt::format("{}", kMeshLod);
         growing_->read.lods = {object.lod};
         return *growing_;
     }
