@@ -5,6 +5,7 @@
 #include <atomic>
 
 #include "api/bake_city.h"
+#include "api/load_sky_image.h"
 #include "base/error.h"
 #include "sky/daylight_settings.h"
 #include "sky/solar_position.h"
@@ -100,6 +101,7 @@ BakeResult bake(const Bake& settings) {
         options.bake.sampling = static_cast<SkySampling>(sampling - kSkySamplingNames.begin());
         options.bake.tolerance = static_cast<float>(settings.tolerance);
         options.daylight.sky = parse_sky(settings.sky);
+        load_sky_image(options.daylight.sky);
         options.daylight.sun = parse_sun_shape(settings.sun);
         for (const std::string& instant : settings.at)
             options.daylight.instants.push_back(parse_instant(instant, std::nullopt));

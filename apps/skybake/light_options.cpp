@@ -6,9 +6,11 @@
 #include <charconv>
 #include <cmath>
 
+#include "api/load_sky_image.h"
 #include "base/error.h"
 #include "base/nearest_word.h"
 #include "city/city_model.h"
+#include "weather_option.h"
 
 namespace skybake::cli {
 
@@ -55,11 +57,13 @@ void add_daylight_options(CLI::App* verb, LightOptions& options) {
         ->group(group)
         ->type_name("AZ,EL")
         ->excludes("--at");
-    verb->add_option("--sky", options.sky,
-                     "preetham:turbidity=T,level=clearsky|published|dhi=W; uniform:luminance=CD_M2; none")
+    verb->add_option("--sky", options.sky, kSkyForms)->group(group)->type_name("MODEL")->capture_default_str();
+    verb->add_option(
+            "--weather", options.weather,
+            "EPW weather file: its hour at --at sets the level of sky and sun, and the site if nothing else does")
         ->group(group)
-        ->type_name("MODEL")
-        ->capture_default_str();
+        ->type_name("FILE")
+        ->excludes("--sun-direction");
 }
 
 void add_light_options(CLI::App* verb, LightOptions& options) {
@@ -74,16 +78,15 @@ void add_light_options(CLI::App* verb, LightOptions& options) {
         ->type_name("N")
         ->check(CLI::Range(1, 1 << 20))
         ->capture_default_str();
-    verb->add_option("--indirect", options.indirect, "none, photons or reference; this version: none")
-        ->group(group)
-        ->type_name("METHOD")
-        ->capture_default_str();
     verb->add_option("--albedo", options.albedo, "R,G,B or default=0.3,roof=0.4,ground=0.2 (linear, 0..1)")
         ->group(group)
         ->type_name("ALBEDO");
 }
 
-DaylightSettings daylight_settings_of(const LightOptions& options) {
+namespace {
+
+/// All but the picture of an image sky.
+DaylightSettings parsed_settings(const LightOptions& options) {
     DaylightSettings settings;
     settings.sky = parse_sky(options.sky);
     settings.sun = parse_sun_shape(options.sun);
@@ -91,6 +94,18 @@ DaylightSettings daylight_settings_of(const LightOptions& options) {
         options.timezone.empty() ? std::nullopt : std::optional(options.timezone);
     if (!options.at.empty()) settings.instants = parse_instants(options.at, timezone);
     if (!options.sun_direction.empty()) settings.sun_direction = parse_sun_direction(options.sun_direction);
+    if (!options.weather.empty()) {
+        put_weather(settings, options.weather);
+        if (options.sky == kDefaultSky) settings.sky = PerezSettings{};
+    }
+    return settings;
+}
+
+}  // namespace
+
+DaylightSettings daylight_settings_of(const LightOptions& options) {
+    DaylightSettings settings = parsed_settings(options);
+    load_sky_image(settings.sky);
     return settings;
 }
 
@@ -99,24 +114,14 @@ std::optional<Site> site_of(const LightOptions& options, const std::optional<Sit
 }
 
 void check_light_options(const LightOptions& options) {
-    const DaylightSettings settings = daylight_settings_of(options);
+    const DaylightSettings settings = parsed_settings(options);
     site_of(options, std::nullopt);
     parse_albedo(options.albedo);
     const bool has_sun = !settings.instants.empty() || settings.sun_direction.has_value();
-    if (!has_sun) {
+    if (!has_sun && needs_sun(settings.sky)) {
         FindingLog unheard;  // only for the errors: what is found is reported when the daylight is made
         make_daylights(settings, std::nullopt, 0.0, unheard);
     }
-    if (options.indirect == "none") return;
-    const std::vector<std::string> known = {"none", "photons", "reference"};
-    if (std::find(known.begin(), known.end(), options.indirect) == known.end()) {
-        throw InputError(fmt::format("--indirect '{}' is unknown; did you mean '{}'?", options.indirect,
-                                     nearest_word(options.indirect, known)));
-    }
-    throw InputError(
-        fmt::format("--indirect {}: this version computes direct light only, from sun and sky. Leave the option out, "
-                    "or write --indirect none.",
-                    options.indirect));
 }
 
 std::vector<Daylight> daylights_of(const LightOptions& options, const std::optional<Site>& site_from_crs,

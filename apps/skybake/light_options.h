@@ -14,28 +14,31 @@
 
 namespace skybake::cli {
 
+inline constexpr const char* kDefaultSky = "preetham:turbidity=3,level=clearsky";
+
 /// As typed; parsed by the functions below.
 struct LightOptions {
     std::string at;
     std::string timezone;
     std::string site;
     std::string sun_direction;
-    std::string sky = "preetham:turbidity=3,level=clearsky";
+    std::string sky = kDefaultSky;
+    std::string weather;
     std::string sun = "point";
     int sky_samples = 1024;  // directions per texel
-    std::string indirect = "none";
     std::string albedo;
 };
 
-/// --at, --timezone, --site, --sun-direction and --sky.
+/// --at, --timezone, --site, --sun-direction, --sky and --weather.
 void add_daylight_options(CLI::App* verb, LightOptions& options);
-/// The above, and --sun, --sky-samples, --indirect and --albedo.
+/// The above, and --sun, --sky-samples and --albedo.
 void add_light_options(CLI::App* verb, LightOptions& options);
 
 /// Throws InputError for whatever is wrong with the options by themselves, so that a long run does not find it out
 /// after reading the city.
 void check_light_options(const LightOptions& options);
 
+/// The options parsed, and the picture of an image sky read. Throws InputError.
 DaylightSettings daylight_settings_of(const LightOptions& options);
 /// --site, or else what the city's CRS says, if anything.
 std::optional<Site> site_of(const LightOptions& options, const std::optional<Site>& site_from_crs);

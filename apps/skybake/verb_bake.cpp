@@ -1,4 +1,4 @@
-// skybake bake: sun and sky of a city into lightmaps, ready for the walkthrough.
+// skybake bake: sun, sky and reflected light of a city into lightmaps, ready for the walkthrough.
 #include <fmt/format.h>
 
 #include <memory>
@@ -7,6 +7,7 @@
 #include "bake_report.h"
 #include "base/error.h"
 #include "base/threads.h"
+#include "bounce_options.h"
 #include "city_options.h"
 #include "light_options.h"
 #include "program.h"
@@ -19,6 +20,7 @@ namespace {
 struct Options {
     CityOptions city;
     LightOptions light;
+    BounceOptions bounce;
     std::filesystem::path output;
     float texel_m = 0.5f;
     std::string sampling{kSkySamplingNames[0]};
@@ -27,25 +29,34 @@ struct Options {
 
 /// What decides the bytes of a bake, by the names of the options.
 std::vector<std::pair<std::string, std::string>> settings_of(const Options& options) {
-    return {{"at", options.light.at},
-            {"timezone", options.light.timezone},
-            {"site", options.light.site},
-            {"sun-direction", options.light.sun_direction},
-            {"sky", options.light.sky},
-            {"sun", options.light.sun},
-            {"sky-samples", std::to_string(options.light.sky_samples)},
-            {"indirect", options.light.indirect},
-            {"albedo", options.light.albedo},
-            {"lod", options.city.lod},
-            {"ground", name_of(options.city.ground)},
-            {"ground-margin", fmt::format("{}", options.city.ground_margin_m)},
-            {"texel", fmt::format("{}", options.texel_m)},
-            {"sampling", options.sampling},
-            {"tolerance", fmt::format("{}", options.tolerance)}};
+    std::vector<std::pair<std::string, std::string>> settings{
+        {"at", options.light.at},
+        {"timezone", options.light.timezone},
+        {"site", options.light.site},
+        {"sun-direction", options.light.sun_direction},
+        {"sky", options.light.sky},
+        {"weather", std::filesystem::path(options.light.weather).filename().string()},
+        {"sun", options.light.sun},
+        {"sky-samples", std::to_string(options.light.sky_samples)},
+        {"albedo", options.light.albedo},
+        {"lod", options.city.lod},
+        {"ground", name_of(options.city.ground)},
+        {"ground-margin", fmt::format("{}", options.city.ground_margin_m)},
+        {"texel", fmt::format("{}", options.texel_m)},
+        {"sampling", options.sampling},
+        {"tolerance", fmt::format("{}", options.tolerance)}};
+    const auto bounce = settings_of(options.bounce);
+    settings.insert(settings.end(), bounce.begin(), bounce.end());
+    return settings;
 }
 
 int run(const CommonOptions& common, const Options& options) {
     check_light_options(options.light);
+    const Indirect indirect = indirect_of(options.bounce);
+    if (indirect == Indirect::reference)
+        throw InputError(
+            "--indirect reference: in this version paths answer at points, by skybake probe. Write --indirect "
+            "photons.");
     viewer_assets();  // a bake without its walkthrough is not whole: say so before the work
     const ThreadLimit threads(common.threads);
     BakeCityOptions bake;
@@ -59,6 +70,7 @@ int run(const CommonOptions& common, const Options& options) {
     const auto name = std::find(kSkySamplingNames.begin(), kSkySamplingNames.end(), options.sampling);
     bake.bake.sampling = static_cast<SkySampling>(name - kSkySamplingNames.begin());
     bake.bake.tolerance = options.tolerance;
+    if (indirect == Indirect::photons) bake.bake.bounces = photons_of(options.bounce, common.seed);
     bake.seed = common.seed;
     bake.version = SKYBAKE_VERSION;
     bake.settings = settings_of(options);
@@ -75,13 +87,30 @@ int run(const CommonOptions& common, const Options& options) {
     say(common, fmt::format("{}: {} buildings, {} triangles, {} charts on {} pages, {:.2f} million texels of {} m",
                             options.output.string(), report.buildings, report.triangles, report.charts, report.pages,
                             static_cast<double>(report.texels) * 1e-6, report.texel_m));
-    say(common, fmt::format("sky: {:.0f} million rays at {:.1f} million a second; {:.1f} % of full sampling, predicted "
-                            "error against it {:.2f} %",
-                            static_cast<double>(report.rays.sky) * 1e-6, report.rays_per_second * 1e-6,
-                            100.0 * report.evaluated_fraction, 100.0 * report.predicted_rmse_over_mean));
-    say(common, fmt::format("{:.1f} s: read {:.1f}, build {:.1f}, charts {:.1f}, sky {:.1f}, sun {:.1f}, finish "
+    if (bake.bake.sampling == SkySampling::projected) {
+        say(common, fmt::format("sky: projected shadows; rays for {:.1f} % of texels times directions, {:.1f} million",
+                                100.0 * report.evaluated_fraction, static_cast<double>(report.rays.sky) * 1e-6));
+    } else {
+        say(common, fmt::format("sky: {:.0f} million rays at {:.1f} million a second; {:.1f} % of full sampling, "
+                                "predicted error against it {:.2f} %",
+                                static_cast<double>(report.rays.sky) * 1e-6, report.rays_per_second * 1e-6,
+                                100.0 * report.evaluated_fraction, 100.0 * report.predicted_rmse_over_mean));
+    }
+    if (bake.bake.bounces) {
+        const PhotonBalance& p = report.photons;
+        say(common, fmt::format("photons: {:.1f} million rays at {:.1f} million a second, {:.1f} million at rest; of "
+                                "{:.3g} lm {:.1f} % "
+                                "absorbed, {:.1f} % escaped, {:.2g} % left; {:.1f} % of the texels gathered",
+                                static_cast<double>(report.rays.photon) * 1e-6,
+                                static_cast<double>(report.rays.photon) * 1e-6 / std::max(s.photons, 1e-9),
+                                static_cast<double>(p.stored) * 1e-6, p.emitted, 100.0 * p.absorbed / p.emitted,
+                                100.0 * p.escaped / p.emitted, 100.0 * p.at_limit / p.emitted,
+                                100.0 * report.indirect_evaluated_fraction));
+    }
+    say(common, fmt::format("{:.1f} s: read {:.1f}, build {:.1f}, charts {:.1f}, sky {:.1f}, sun {:.1f}, photons "
+                            "{:.1f}, gather {:.1f}, finish "
                             "{:.1f}, write {:.1f}; {:.0f} MB of memory",
-                            s.total, s.read, s.build, s.charts, s.sky, s.sun, s.finish, s.write,
+                            s.total, s.read, s.build, s.charts, s.sky, s.sun, s.photons, s.gather, s.finish, s.write,
                             static_cast<double>(report.peak_rss_bytes) * 1e-6));
     say(common, fmt::format("Look at it: skybake view {}", options.output.string()));
     if (common.wants_json) {
@@ -97,6 +126,7 @@ int run(const CommonOptions& common, const Options& options) {
 
 nlohmann::json to_json(const BakeReport& report) {
     const StageSeconds& s = report.seconds;
+    const PhotonBalance& p = report.photons;
     return {{"buildings", report.buildings},
             {"triangles", report.triangles},
             {"charts", report.charts},
@@ -122,6 +152,10 @@ nlohmann::json to_json(const BakeReport& report) {
             {"rays_per_second", report.rays_per_second},
             {"evaluated_fraction", report.evaluated_fraction},
             {"predicted_rmse_over_mean", report.predicted_rmse_over_mean},
+            {"indirect_evaluated_fraction", report.indirect_evaluated_fraction},
+            {"photons_stored", p.stored},
+            {"photon_lumen",
+             {{"emitted", p.emitted}, {"absorbed", p.absorbed}, {"escaped", p.escaped}, {"at_limit", p.at_limit}}},
             {"peak_rss_bytes", report.peak_rss_bytes}};
 }
 
@@ -131,10 +165,12 @@ void add_bake(CLI::App& app, Program& program) {
         app, program, "bake", "Computes sun and sky for every surface of a city, into lightmaps with a walkthrough.",
         "  skybake bake town.city.json -o lit --at 2026-06-21T12:00+02:00\n"
         "  skybake bake delft.city.json -o lit --at 2026-03-21T08:00Z/2026-03-21T16:00Z/2h --ground plane\n"
-        "  skybake bake city.jsonl -o lit --sun-direction 200,35 --texel 0.25 --sampling full",
+        "  skybake bake city.jsonl -o lit --sun-direction 200,35 --texel 0.25 --sampling full\n"
+        "  skybake bake town.city.json -o lit --sun-direction 200,35 --indirect photons --photons 2000000",
         [&program, options] { return run(program.common, *options); });
     add_city_options(verb, options->city);
     add_light_options(verb, options->light);
+    add_bounce_options(verb, options->bounce);
     verb->add_option("-o,--output", options->output, "folder to write")->required();
     verb->add_option("--texel", options->texel_m, "length of a lightmap texel, metres")
         ->capture_default_str()

@@ -1,13 +1,16 @@
-// skybake probe: sun and sky at free points, by the estimators of the bake.
+// skybake probe: light at free points: sun and sky by the estimators of the bake, lamps, and reflected light.
 #include <fmt/format.h>
 
 #include <chrono>
 #include <memory>
 
 #include "api/bake_city.h"
+#include "api/load_albedo.h"
 #include "base/error.h"
 #include "base/threads.h"
+#include "bounce_options.h"
 #include "city_options.h"
+#include "io/lamps/lamps_json.h"
 #include "io/points/points_csv.h"
 #include "light/point_light.h"
 #include "light_options.h"
@@ -20,12 +23,40 @@ namespace {
 struct Options {
     CityOptions city;
     LightOptions light;
+    BounceOptions bounce;
     std::filesystem::path points;
     std::filesystem::path output;
 };
 
+std::vector<IndirectLight> indirect_by_photons(std::span<const ReceiverPoint> points, const LightSources& sources,
+                                               const Scene& scene, const RayScene& rays, const BouncePhotons& settings,
+                                               Progress& progress, nlohmann::json& report) {
+    using Clock = std::chrono::steady_clock;
+    const auto begin = Clock::now();
+    PhotonRun run = trace_photons(sources, scene, rays, settings.photons, progress);
+    const auto traced = Clock::now();
+    const PhotonMap map(std::move(run.photons));
+    const auto sorted = Clock::now();
+    const PhotonGatherer gatherer(map, rays, surface_area(scene), settings.gather);
+    std::uint64_t feelers = 0;
+    std::vector<IndirectLight> light = gather_indirect(points, gatherer, feelers);
+    const auto seconds = [](Clock::duration d) { return std::chrono::duration<double>(d).count(); };
+    const PhotonLedger& l = run.ledger;
+    report = {
+        {"photons", l.photons},
+        {"stored", map.photons().size()},
+        {"rays", {{"photon", l.rays}, {"feeler", feelers}}},
+        {"lumen", {{"emitted", l.emitted}, {"absorbed", l.absorbed}, {"escaped", l.escaped}, {"at_limit", l.at_limit}}},
+        {"seconds",
+         {{"photons", seconds(traced - begin)},
+          {"map", seconds(sorted - traced)},
+          {"gather", seconds(Clock::now() - sorted)}}}};
+    return light;
+}
+
 int run(const CommonOptions& common, const Options& options) {
     check_light_options(options.light);
+    const Indirect indirect = indirect_of(options.bounce);
     const ThreadLimit threads(common.threads);
     const auto begin = std::chrono::steady_clock::now();
     const std::vector<io::ProbePoint> points = io::read_points(options.points);
@@ -35,8 +66,8 @@ int run(const CommonOptions& common, const Options& options) {
         daylights_of(options.light, loaded.georeference.site, loaded.georeference.convergence_rad, loaded.findings);
     if (daylights.size() != 1)
         throw InputError("probe answers for one instant: give --at a single time, or call it once for each.");
-    const Scene scene =
-        build_scene(loaded.city, scene_options(parse_albedo(options.light.albedo), 0.5f), loaded.findings);
+    Scene scene = build_scene(loaded.city, scene_options(parse_albedo(options.light.albedo), 0.5f), loaded.findings);
+    if (indirect != Indirect::none) load_albedo_images(scene, loaded.findings, progress);
     const RayScene rays(scene);
 
     std::vector<ReceiverPoint> receivers;
@@ -46,12 +77,28 @@ int run(const CommonOptions& common, const Options& options) {
     const Daylight& daylight = daylights.front();
     const std::vector<PointLight> light =
         light_points(receivers, sampler, 0, daylight.sun, rays, {options.light.sky_samples, 64});
+    LightSources sources{daylight, {}};
+    if (!options.bounce.lamps.empty()) sources.lamps = io::read_lamps(options.bounce.lamps, scene.origin);
+    const std::vector<Rgb> by_lamps = light_points_by_lamps(receivers, sources.lamps, rays);
+    std::vector<IndirectLight> reflected(receivers.size());
+    nlohmann::json bounces;
+    if (indirect == Indirect::photons) {
+        const BouncePhotons settings = photons_of(options.bounce, common.seed);
+        reflected = indirect_by_photons(receivers, sources, scene, rays, settings, progress, bounces);
+    }
+    if (indirect == Indirect::reference)
+        reflected =
+            trace_indirect(receivers, sources, scene, rays, path_options_of(options.bounce, common.seed), progress);
     std::vector<io::ProbeLight> rows;
-    for (const PointLight& point : light) {
+    for (std::size_t i = 0; i < light.size(); ++i) {
+        const PointLight& point = light[i];
         io::ProbeLight row;
+        row.indirect_lx = static_cast<double>(luminance(reflected[i].irradiance));
+        row.indirect_error_lx = static_cast<double>(reflected[i].standard_error_lx);
         row.sun_lx = static_cast<double>(luminance(point.sun));
         row.sky_lx = static_cast<double>(luminance(point.sky));
-        row.total = point.sun + point.sky;
+        row.lamps_lx = static_cast<double>(luminance(by_lamps[i]));
+        row.total = point.sun + point.sky + by_lamps[i] + reflected[i].irradiance;
         row.sun_visible = static_cast<double>(point.sun_visible);
         row.sky_view_factor = static_cast<double>(point.sky_view_factor);
         rows.push_back(row);
@@ -66,11 +113,13 @@ int run(const CommonOptions& common, const Options& options) {
         fmt::print("{}", io::probe_csv(points, rows));
     }
     if (common.wants_json) {
-        print_json({{"points", points.size()},
-                    {"instant", daylight.label},
-                    {"sky_samples", options.light.sky_samples},
-                    {"seconds", seconds},
-                    {"findings", to_json(loaded.findings)}});
+        nlohmann::json object = {{"points", points.size()},
+                                 {"instant", daylight.label},
+                                 {"sky_samples", options.light.sky_samples},
+                                 {"seconds", seconds},
+                                 {"findings", to_json(loaded.findings)}};
+        if (!bounces.is_null()) object["bounces"] = bounces;
+        print_json(object);
     }
     return exit_code;
 }
@@ -82,10 +131,13 @@ void add_probe(CLI::App& app, Program& program) {
     CLI::App* verb = add_verb(
         app, program, "probe", "Light at points of a CSV (id,x,y,z,nx,ny,nz in map coordinates), without a lightmap.",
         "  skybake probe town.city.json --points points.csv --at 2026-06-21T12:00+02:00\n"
-        "  skybake probe town.city.json --points points.csv --sky uniform:luminance=1000 --sun none -o light.csv",
+        "  skybake probe town.city.json --points points.csv --sky uniform:luminance=1000 --sun none -o light.csv\n"
+        "  skybake probe town.city.json --points points.csv --sun-direction 200,35 --indirect reference --paths 4096",
         [&program, options] { return run(program.common, *options); });
     add_city_options(verb, options->city);
     add_light_options(verb, options->light);
+    add_bounce_options(verb, options->bounce);
+    add_point_options(verb, options->bounce);
     verb->add_option("--points", options->points, "CSV with the points")->required();
     verb->add_option("-o,--output", options->output, "CSV to write; without it, stdout");
 }

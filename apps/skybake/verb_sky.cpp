@@ -1,29 +1,37 @@
 // skybake sky: luminance and colour of the sky in asked directions, as a panorama, and summed up.
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <memory>
+#include <optional>
+#include <span>
 
 #include "base/error.h"
+#include "base/nearest_word.h"
+#include "base/threads.h"
 #include "io/exr/exr.h"
 #include "io/image/image.h"
 #include "light_options.h"
 #include "program.h"
 #include "sky/solar_position.h"
+#include "weather_option.h"
 
 namespace skybake::cli {
 
 namespace {
 
-struct SkyOptions {
+struct SkyVerbOptions {
     LightOptions light;
     std::string directions;
     std::string picture;
-    int width = 2048;
+    std::string projection = "equirectangular";
+    std::optional<int> width;
 };
 
 struct Query {
@@ -158,45 +166,109 @@ nlohmann::json directions_json(const SkyModel& sky, const Queries& queries) {
     return list;
 }
 
-/// The whole sphere, 2:1: row 0 the zenith, the last row the nadir, columns clockwise from true north; black below the
-/// horizon.
-io::PictureRgb equirectangular(const SkyModel& sky, int width) {
-    io::PictureRgb picture{width, width / 2, {}};
-    picture.pixels.reserve(static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height));
-    for (int row = 0; row < picture.height; ++row) {
-        const double elevation = kPi * (0.5 - (row + 0.5) / picture.height);
-        for (int column = 0; column < picture.width; ++column) {
-            picture.pixels.push_back(
-                sky_luminance(sky, Vec3f(world_direction(2.0 * kPi * (column + 0.5) / picture.width, elevation, 0.0))));
+/// A picture of a sky, black where it shows none: the mean of `kSamples`² points a pixel for a picture of a sky, whose
+/// sun is smaller than a pixel, else its middle.
+template <typename Direction>
+io::PictureRgb picture_of(const SkyModel& sky, int width, int height, const Direction& direction_at) {
+    io::PictureRgb picture{width, height, {}};
+    picture.pixels.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    constexpr int kSamples = 4;
+    const int samples = std::holds_alternative<ImageSky>(sky) ? kSamples : 1;
+    tbb::parallel_for(0, height, [&](int row) {
+        for (int column = 0; column < width; ++column) {
+            Rgb sum(0.0f);
+            for (int i = 0; i < samples * samples; ++i) {
+                const std::optional<Vec3d> direction =
+                    direction_at(column + (i % samples + 0.5) / samples, row + (i / samples + 0.5) / samples);
+                if (direction) sum += sky_luminance(sky, Vec3f(*direction));
+            }
+            picture.pixels[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
+                           static_cast<std::size_t>(column)] = sum / static_cast<float>(samples * samples);
         }
-    }
+    });
     return picture;
 }
 
-/// Based on: Reinhard et al., "Photographic tone reproduction for digital images", SIGGRAPH 2002, equation 4: the log
-/// average of the sky becomes middle grey, and what is eight times as bright (or the maximum, if less) white. Works on
-/// luminance, so that the hue stays.
-io::Image8 tone_mapped(const io::PictureRgb& picture) {
+/// The whole sphere, 2:1: row 0 the zenith, the last row the nadir, columns clockwise from true north; black below the
+/// horizon. What --sky image:FILE reads.
+io::PictureRgb equirectangular(const SkyModel& sky, int width) {
+    const int height = width / 2;
+    return picture_of(sky, width, height, [&](double x, double y) -> std::optional<Vec3d> {
+        return world_direction(2.0 * kPi * x / width, kPi * (0.5 - y / height), 0.0);
+    });
+}
+
+/// The dome as one sees it lying on one's back, the head to the north: north on top, east on the left, the zenith in
+/// the middle, the zenith angle growing evenly to the horizon on the circle; black outside.
+io::PictureRgb fisheye(const SkyModel& sky, int width) {
+    return picture_of(sky, width, width, [&](double x, double y) -> std::optional<Vec3d> {
+        const double right = 2.0 * x / width - 1.0;
+        const double up = 1.0 - 2.0 * y / width;
+        const double radius = std::hypot(right, up);
+        if (radius > 1.0) return std::nullopt;
+        Vec3d direction = world_direction(std::atan2(-right, up), kPi / 2.0 * (1.0 - radius), 0.0);
+        direction.z = std::max(direction.z, 0.0);
+        return direction;
+    });
+}
+
+io::PictureRgb panorama(const SkyModel& sky, const SkyVerbOptions& options, int width) {
+    return options.projection == "fisheye" ? fisheye(sky, width) : equirectangular(sky, width);
+}
+
+/// The pictures side by side; of an equirectangular one only the upper half, one above the other, so that the days'
+/// horizons line up.
+io::PictureRgb strip(std::vector<io::PictureRgb> pictures, bool is_side_by_side) {
+    const int width = pictures.front().width;
+    const int height = is_side_by_side ? pictures.front().height : pictures.front().height / 2;
+    const int count = static_cast<int>(pictures.size());
+    io::PictureRgb whole{is_side_by_side ? count * width : width, is_side_by_side ? height : count * height, {}};
+    whole.pixels.reserve(static_cast<std::size_t>(whole.width) * static_cast<std::size_t>(whole.height));
+    for (int row = 0; row < whole.height; ++row) {
+        for (int i = 0; i < (is_side_by_side ? count : 1); ++i) {
+            const io::PictureRgb& picture = pictures[static_cast<std::size_t>(is_side_by_side ? i : row / height)];
+            const auto begin = picture.pixels.begin() + static_cast<std::ptrdiff_t>(row % height) * width;
+            whole.pixels.insert(whole.pixels.end(), begin, begin + width);
+        }
+    }
+    return whole;
+}
+
+/// The logarithmic mean of the luminance where it is not black; nothing for a black picture.
+std::optional<double> log_average(const io::PictureRgb& picture) {
     double log_sum = 0.0;
-    double brightest = 0.0;
     std::size_t lit = 0;
     for (const Rgb& pixel : picture.pixels) {
         const double value = luminance(pixel);
         if (!(value > 0.0)) continue;
         log_sum += std::log(value);
-        brightest = std::max(brightest, value);
         ++lit;
     }
+    return lit > 0 ? std::optional(std::exp(log_sum / static_cast<double>(lit))) : std::nullopt;
+}
+
+/// Based on: Reinhard et al., "Photographic tone reproduction for digital images", SIGGRAPH 2002, equation 4: `average`
+/// becomes middle grey, and what is sixteen times as bright white. Works on luminance, so that the hue stays; a colour
+/// too strong for the screen fades towards the grey of its luminance, which keeps sunsets orange where cutting the
+/// channels makes them green.
+io::Image8 tone_mapped(const io::PictureRgb& picture, std::optional<double> average) {
     io::Image8 image{picture.width, picture.height, 3, std::vector<std::uint8_t>(3 * picture.pixels.size())};
-    if (lit == 0) return image;
+    if (!average) return image;
     constexpr double kMiddleGrey = 0.3;  // by eye: a clear noon sky looks like one on a screen; 0.18 is dull
-    const double exposure = kMiddleGrey / std::exp(log_sum / static_cast<double>(lit));
-    const double white = std::min(8.0 * kMiddleGrey, exposure * brightest);
+    const double exposure = kMiddleGrey / *average;
+    constexpr double kWhite = 16.0 * kMiddleGrey;
     for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
         const Rgb& pixel = picture.pixels[i];
         const double scaled = exposure * luminance(pixel);
-        const double shown = (1.0 + scaled / (white * white)) / (1.0 + scaled) * exposure;
-        const Rgb display = pixel * static_cast<float>(shown);
+        const double shown = (1.0 + scaled / (kWhite * kWhite)) / (1.0 + scaled) * exposure;
+        Rgb display = pixel * static_cast<float>(shown);
+        const float grey = luminance(display);
+        const float strongest = std::max({display.x, display.y, display.z});
+        if (grey >= 1.0f) {
+            display = Rgb(1.0f);
+        } else if (strongest > 1.0f) {
+            display = Rgb(grey) + (display - Rgb(grey)) * ((1.0f - grey) / (strongest - grey));
+        }
         for (int channel = 0; channel < 3; ++channel) {
             image.pixels[3 * i + static_cast<std::size_t>(channel)] =
                 static_cast<std::uint8_t>(std::lround(255.0f * srgb_from_linear(display[channel])));
@@ -205,18 +277,38 @@ io::Image8 tone_mapped(const io::PictureRgb& picture) {
     return image;
 }
 
-void write_picture(const std::filesystem::path& path, const Daylight& daylight, const SkySettings& settings,
-                   int width) {
-    const std::string extension = path.extension().string();
-    const io::PictureRgb picture = equirectangular(daylight.sky, width);
-    if (extension == ".png") {
-        io::write_png(path, tone_mapped(picture));
+/// Panorama of one instant, or a strip of several. Returns what it shows, for the user.
+std::string write_picture(const SkyVerbOptions& options, std::span<const Daylight> daylights,
+                          const SkySettings& settings) {
+    const bool is_fisheye = options.projection == "fisheye";
+    const bool is_strip = daylights.size() > 1;
+    const int width = options.width.value_or(is_strip ? (is_fisheye ? 256 : 1024) : (is_fisheye ? 1024 : 2048));
+    std::vector<io::PictureRgb> pictures;
+    std::string instants;
+    std::optional<double> average;  // of the brightest sky: a day's strip is exposed for the day, not for its dusk
+    for (const Daylight& daylight : daylights) {
+        pictures.push_back(panorama(daylight.sky, options, width));
+        average = std::max(average, log_average(pictures.back()));
+        instants += (instants.empty() ? "" : ", ") + daylight.label;
+    }
+    const io::PictureRgb picture = is_strip ? strip(std::move(pictures), is_fisheye) : std::move(pictures.front());
+    const std::filesystem::path path = options.picture;
+    if (path.extension() == ".png") {
+        io::write_png(path, tone_mapped(picture, average));
     } else {
         io::write_exr_rgb(path, picture,
                           {{"skybake.sky", to_text(settings)},
-                           {"skybake.instant", daylight.label},
+                           {"skybake.instant", instants},
+                           {"skybake.projection", options.projection},
                            {"skybake.unit", "cd/m2 per channel, linear Rec. 709"}});
     }
+    const std::string one = is_fisheye ? "fisheye, equidistant, north on top, east on the left, zenith in the middle"
+                                       : "equirectangular, zenith on top, true north at the left edge, clockwise";
+    const std::string many =
+        is_fisheye ? fmt::format("{} skies from left to right, each ", daylights.size())
+                   : fmt::format("{} skies from top to bottom down to the horizon, each ", daylights.size());
+    return fmt::format("wrote {}: {} x {}, {}{}", options.picture, picture.width, picture.height, is_strip ? many : "",
+                       one);
 }
 
 nlohmann::json summary_of(const Daylight& daylight, const SkySettings& settings) {
@@ -261,36 +353,61 @@ void print_summary(const nlohmann::json& summary) {
     row("global horizontal", "ghi_w_m2", "W/m2");
 }
 
-int run_sky(const SkyOptions& options, const CommonOptions& common) {
+/// --weather without --at: what the file holds.
+int run_weather(const DaylightSettings& settings, const SkyVerbOptions& options, const CommonOptions& common) {
+    if (!options.picture.empty() || !options.directions.empty())
+        throw InputError(
+            "--weather needs the hour of the sky: give --at TIME, for example --at 2026-06-21T12:00+02:00.");
+    if (common.wants_json) {
+        nlohmann::json object = {{"weather", weather_json(*settings.weather)}};
+        object["findings"] = to_json(settings.weather_findings);
+        print_json(object);
+    } else {
+        print_weather(*settings.weather);
+    }
+    return report_findings(common, settings.weather_findings);
+}
+
+int run_sky(const SkyVerbOptions& options, const CommonOptions& common) {
     if (!options.picture.empty()) {
         const std::string extension = std::filesystem::path(options.picture).extension().string();
         if (extension != ".png" && extension != ".exr")
             throw InputError(fmt::format("-o {}: the panorama is a .png or an .exr.", options.picture));
     }
+    const std::vector<std::string> projections = {"equirectangular", "fisheye"};
+    if (std::find(projections.begin(), projections.end(), options.projection) == projections.end()) {
+        throw InputError(fmt::format("--projection '{}' is unknown; did you mean '{}'? Known: {}", options.projection,
+                                     nearest_word(options.projection, projections), fmt::join(projections, ", ")));
+    }
+    const ThreadLimit threads(common.threads);
     FindingLog findings;
     const DaylightSettings settings = daylight_settings_of(options.light);
-    if (settings.instants.size() > 1) {
-        throw InputError(
-            fmt::format("--at names {} instants; sky shows one. Call it once for each.", settings.instants.size()));
-    }
-    const Daylight daylight = make_daylights(settings, site_of(options.light, std::nullopt), 0.0, findings).at(0);
+    if (settings.weather && settings.instants.empty()) return run_weather(settings, options, common);
+    const std::vector<Daylight> daylights =
+        make_daylights(settings, site_of(options.light, std::nullopt), 0.0, findings);
     std::optional<Queries> queries;
-    if (!options.directions.empty()) queries = read_directions(options.directions);
-    if (!options.picture.empty()) {
-        write_picture(options.picture, daylight, settings.sky, options.width);
-        say(common,
-            fmt::format("wrote {}: equirectangular, {} x {}, zenith on top, true north at the left edge, clockwise",
-                        options.picture, options.width, options.width / 2));
+    if (!options.directions.empty()) {
+        if (daylights.size() > 1) {
+            throw InputError(fmt::format("--at names {} instants; --directions answers for one. Call it once for each.",
+                                         daylights.size()));
+        }
+        queries = read_directions(options.directions);
     }
+    if (!options.picture.empty()) say(common, write_picture(options, daylights, settings.sky));
     if (common.wants_json) {
-        nlohmann::json object = summary_of(daylight, settings.sky);
-        if (queries) object["directions"] = directions_json(daylight.sky, *queries);
+        std::vector<nlohmann::json> entries;
+        for (std::size_t i = 0; i < daylights.size(); ++i)
+            entries.push_back(summary_of(daylights[i], sky_at(settings, i)));
+        nlohmann::json object = entries.size() == 1 ? entries.front() : nlohmann::json::object();
+        object["instants"] = entries;
+        if (settings.weather) object["weather"] = weather_json(*settings.weather);
+        if (queries) object["directions"] = directions_json(daylights.front().sky, *queries);
         object["findings"] = to_json(findings);
         print_json(object);
     } else if (queries) {
-        print_csv(daylight.sky, *queries);
+        print_csv(daylights.front().sky, *queries);
     } else if (options.picture.empty()) {
-        print_summary(summary_of(daylight, settings.sky));
+        for (std::size_t i = 0; i < daylights.size(); ++i) print_summary(summary_of(daylights[i], sky_at(settings, i)));
     }
     return report_findings(common, findings);
 }
@@ -298,22 +415,28 @@ int run_sky(const SkyOptions& options, const CommonOptions& common) {
 }  // namespace
 
 void add_sky(CLI::App& app, Program& program) {
-    const auto options = std::make_shared<SkyOptions>();
+    const auto options = std::make_shared<SkyVerbOptions>();
     CLI::App* verb = add_verb(
-        app, program, "sky", "Luminance and colour of the sky: summed up, in given directions, or as a panorama.",
-        "  skybake sky --sun-direction 180,45\n"
-        "  skybake sky --site 47.07,15.44 --at 2026-06-21T12:00+02:00 -o sky.png\n"
-        "  skybake sky --sun-direction 180,45 --sky preetham:turbidity=2 --directions directions.csv",
+        app, program, "sky", "Luminance and colour of the sky: summed up, in given directions, or as pictures.",
+        "  skybake sky --sun-direction 180,45 --sky perez:dni=700,dhi=90\n"
+        "  skybake sky --site 47.07,15.44 --at 2026-06-21T12:00+02:00 --projection fisheye -o sky.png\n"
+        "  skybake sky --site 47.07,15.44 --at 2026-06-21T04:00Z/2026-06-21T20:00Z/2h -o day.png\n"
+        "  skybake sky --sun-direction 180,45 --sky cie:type=12 --directions directions.csv\n"
+        "  skybake sky --weather graz.epw --at 2026-06-21T12:00+02:00",
         [options, &program] { return run_sky(*options, program.common); });
     add_daylight_options(verb, options->light);
     verb->add_option("--directions", options->directions,
                      "CSV with azimuth_deg,elevation_deg; answers as CSV on stdout; - is stdin")
         ->type_name("CSV");
-    verb->add_option("-o,--output", options->picture, "panorama: .png (tone mapped) or .exr (cd/m2 per channel)")
+    verb->add_option("-o,--output", options->picture,
+                     "panorama, or a strip of several instants: .png (tone mapped) or .exr (cd/m2 per channel)")
         ->type_name("FILE");
-    verb->add_option("--width", options->width, "width of the panorama in pixels, twice its height")
-        ->check(CLI::Range(2, 16384))
+    verb->add_option("--projection", options->projection, "equirectangular (whole sphere) or fisheye (the dome)")
+        ->type_name("NAME")
         ->capture_default_str();
+    verb->add_option("--width", options->width,
+                     "pixels; default 2048, fisheye 1024, in strips 1024 and 256; equirectangular is half as high")
+        ->check(CLI::Range(2, 16384));
 }
 
 }  // namespace skybake::cli

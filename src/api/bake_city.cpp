@@ -8,6 +8,7 @@
 #include <set>
 
 #include "api/default_views.h"
+#include "api/load_albedo.h"
 #include "base/error.h"
 #include "sky/sky_panorama.h"
 #include "sky/utc_time.h"
@@ -41,7 +42,7 @@ io::BakeDescription describe(const BakeCityOptions& options, const LoadedCity& l
     description.version = options.version;
     description.title = options.files.front().stem().stem().string();
     description.crs = loaded.georeference.crs_name;
-    description.site = options.site ? options.site : loaded.georeference.site;
+    description.site = site_of_light(options.daylight, options.site ? options.site : loaded.georeference.site);
     description.convergence_rad = loaded.georeference.convergence_rad;
     description.seed = options.seed;
     description.sky_samples = static_cast<std::uint64_t>(options.bake.sky_samples);
@@ -50,12 +51,13 @@ io::BakeDescription describe(const BakeCityOptions& options, const LoadedCity& l
         options.bake.sampling == SkySampling::hierarchical ? static_cast<double>(options.bake.tolerance) : 0.0;
     description.settings = options.settings;
     description.inputs = options.files;
+    if (options.daylight.weather) description.inputs.push_back(options.daylight.weather->file);
     description.isa = rays.isa();
     description.views = std::move(views);
     for (std::size_t k = 0; k < daylights.size(); ++k) {
         io::InstantDescription instant;
         if (k < options.daylight.instants.size()) instant.utc = to_iso8601({options.daylight.instants[k].utc, 0});
-        instant.sky_model = to_text(options.daylight.sky);
+        instant.sky_model = to_text(sky_at(options.daylight, k));
         instant.sky_panorama = sky_panorama(daylights[k].sky, io::kPanoramaWidth, io::kPanoramaHeight);
         description.instants.push_back(std::move(instant));
     }
@@ -96,11 +98,12 @@ BakeCityResult bake_city(const BakeCityOptions& options, Progress& progress) {
                        loaded.georeference.convergence_rad, result.findings);
 
     const auto build_begin = Clock::now();
-    const Scene scene = build_scene(loaded.city, scene_options(options.albedo, options.texel_m), result.findings);
+    Scene scene = build_scene(loaded.city, scene_options(options.albedo, options.texel_m), result.findings);
     loaded.city = CityModel();  // its memory is wanted for the light
     if (scene.triangles.empty())
         throw InputError(fmt::format("{}: no surface is left to light; see the findings of skybake check.",
                                      options.files.front().string()));
+    if (options.bake.bounces) load_albedo_images(scene, result.findings, progress);
     const RayScene rays(scene);
     result.report.seconds.build = seconds_since(build_begin);
 

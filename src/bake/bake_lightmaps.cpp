@@ -14,6 +14,7 @@
 
 #include "atlas/chart_samples.h"
 #include "bake/finish_chart.h"
+#include "bake/indirect_chart.h"
 #include "bake/sky_tile.h"
 #include "bake/sun_chart.h"
 #include "base/check.h"
@@ -102,13 +103,15 @@ class Baker {
         for (const Daylight& daylight : instants) {
             BakedInstant& instant = lightmaps_.instants.emplace_back(BakedInstant{daylight, {}});
             for (const AtlasPage& page : atlas.pages) {
-                instant.pages.push_back(
-                    {std::vector<Rgb>(texels_of(page), Rgb(0.0f)), std::vector<float>(texels_of(page), 0.0f)});
+                instant.pages.push_back({std::vector<Rgb>(texels_of(page), Rgb(0.0f)),
+                                         std::vector<float>(texels_of(page), 0.0f),
+                                         std::vector<Rgb>(options.bounces ? texels_of(page) : 0, Rgb(0.0f))});
             }
         }
     }
 
     Lightmaps bake(BakeReport& report) {
+        if (options_.bounces) trace_bounces(report);
         const auto begin = Clock::now();
         progress_.begin("sun and sky", atlas_.texel_count());
         const std::vector<ChartGroup> groups = group_by_normal(atlas_);
@@ -121,14 +124,19 @@ class Baker {
         const double join = std::chrono::duration<double>(Clock::now() - join_begin).count();
 
         // The stages run interleaved on all threads: each gets its share of the wall clock.
-        const double busy = sky_clock_.seconds() + sun_clock_.seconds() + finish_clock_.seconds();
+        const double busy =
+            sky_clock_.seconds() + sun_clock_.seconds() + gather_clock_.seconds() + finish_clock_.seconds();
         const double scale = busy > 0.0 ? wall / busy : 0.0;
         report.seconds.sky = scale * sky_clock_.seconds();
         report.seconds.sun = scale * sun_clock_.seconds();
+        report.seconds.gather = scale * gather_clock_.seconds();
         report.seconds.finish = scale * finish_clock_.seconds() + join;
         report.rays.sky = statistics_.rays;
         report.rays.sun = sun_rays_;
-        report.rays.feeler = feature_rays_ + buried_rays_;
+        report.rays.feeler = feature_rays_ + buried_rays_ + indirect_statistics_.rays;
+        if (indirect_statistics_.texels > 0)
+            report.indirect_evaluated_fraction =
+                static_cast<double>(indirect_statistics_.evaluated) / static_cast<double>(indirect_statistics_.texels);
         report.rays_per_second =
             report.seconds.sky > 0.0 ? static_cast<double>(statistics_.rays) / report.seconds.sky : 0.0;
         report.evaluated_fraction = statistics_.pairs > 0
@@ -146,6 +154,24 @@ class Baker {
   private:
     static std::size_t texels_of(const AtlasPage& page) {
         return static_cast<std::size_t>(page.width) * static_cast<std::size_t>(page.height);
+    }
+
+    void trace_bounces(BakeReport& report) {
+        const auto begin = Clock::now();
+        const double area = surface_area(scene_);
+        maps_.reserve(lightmaps_.instants.size());  // the gatherers point into it
+        for (const BakedInstant& instant : lightmaps_.instants) {
+            PhotonRun run = trace_photons({instant.daylight, {}}, scene_, rays_, options_.bounces->photons, progress_);
+            report.rays.photon += run.ledger.rays;
+            report.photons.emitted += run.ledger.emitted;
+            report.photons.absorbed += run.ledger.absorbed;
+            report.photons.escaped += run.ledger.escaped;
+            report.photons.at_limit += run.ledger.at_limit;
+            report.photons.stored += run.photons.size();
+            maps_.emplace_back(std::move(run.photons));
+            gatherers_.emplace_back(maps_.back(), rays_, area, options_.bounces->gather);
+        }
+        report.seconds.photons = std::chrono::duration<double>(Clock::now() - begin).count();
     }
 
     void light_group(const ChartGroup& group) {
@@ -199,6 +225,7 @@ class Baker {
             }
             sun_rays_ += ray_count;
         }
+        if (options_.bounces) gather_clock_.measure([&] { gather_chart(chart, samples, light); });
         finish_clock_.measure([&] {
             std::uint64_t ray_count = 0;
             const std::vector<std::uint8_t> buried =
@@ -209,6 +236,23 @@ class Baker {
             write_chart(id, chart, samples, buried, light, lightmaps_.pages[chart.page.index()], layers);
         });
         progress_.advance(count);
+    }
+
+    void gather_chart(const Chart& chart, const ChartSamples& samples, ChartLight& light) {
+        const float tolerance = options_.sampling == SkySampling::full ? 0.0f : options_.tolerance;
+        std::vector<float> direct_lx(samples.position.size());
+        for (std::size_t k = 0; k < lightmaps_.instants.size(); ++k) {
+            const Rgb beam = lightmaps_.instants[k].daylight.sun.normal_illuminance;
+            for (std::size_t i = 0; i < direct_lx.size(); ++i)
+                direct_lx[i] = luminance(light.sky[k][i] + light.sun_cosine[k][i] * beam);
+            IndirectStatistics statistics;
+            light.indirect.push_back(
+                light_indirect(scene_, chart, samples, gatherers_[k], direct_lx, tolerance, statistics));
+            const std::lock_guard lock(statistics_mutex_);
+            indirect_statistics_.evaluated += statistics.evaluated;
+            indirect_statistics_.texels += statistics.texels;
+            indirect_statistics_.rays += statistics.rays;
+        }
     }
 
     int tiles_in(int size) const {
@@ -242,10 +286,8 @@ class Baker {
         points.covered.assign(static_cast<std::size_t>(points.height), 0);
         points.is_feature.assign(static_cast<std::size_t>(points.height), 0);
         const bool is_relief = chart.min_normal_cosine < 1.0f;
-        if (is_relief) {
-            points.normal.assign(count, chart.normal);
-            points.triangle.assign(count, 0);
-        }
+        if (is_relief) points.normal.assign(count, chart.normal);
+        points.triangle.assign(count, 0);
         for (int row = 0; row < rows; ++row) {
             for (int column = 0; column < columns; ++column) {
                 const std::size_t i = samples.index(column0 + column, row0 + row);
@@ -256,10 +298,8 @@ class Baker {
                 points.x[t] = p.x;
                 points.y[t] = p.y;
                 points.z[t] = p.z;
-                if (is_relief) {
-                    points.normal[t] = normal;
-                    points.triangle[t] = samples.triangle[i];
-                }
+                if (is_relief) points.normal[t] = normal;
+                points.triangle[t] = samples.triangle[i];
                 points.covered[row] |= 1ull << column;
             }
         }
@@ -323,7 +363,10 @@ class Baker {
     Lightmaps lightmaps_;
     std::mutex statistics_mutex_;
     SkyTileStatistics statistics_;
-    StageClock sky_clock_, sun_clock_, finish_clock_;
+    std::vector<PhotonMap> maps_;            // [instant]; none without bounces
+    std::vector<PhotonGatherer> gatherers_;  // [instant]
+    IndirectStatistics indirect_statistics_;
+    StageClock sky_clock_, sun_clock_, gather_clock_, finish_clock_;
     std::atomic<std::uint64_t> sun_rays_{0}, feature_rays_{0}, buried_rays_{0};
 };
 

@@ -17,14 +17,22 @@ struct StageSeconds {
     double read = 0, build = 0, charts = 0, sun = 0, sky = 0, photons = 0, gather = 0, finish = 0, write = 0, total = 0;
 };
 
+/// Where the photons' light went, all instants together, lm: emitted = absorbed + escaped + at_limit.
+struct PhotonBalance {
+    double emitted = 0, absorbed = 0, escaped = 0, at_limit = 0;
+    std::uint64_t stored = 0;  // photons in the maps
+};
+
 struct BakeReport {
     std::uint64_t buildings = 0, triangles = 0, charts = 0, pages = 0, texels = 0;
     double texel_m = 0.5;
     RayCounts rays;
     StageSeconds seconds;
-    double rays_per_second = 0.0;           // skylight rays over the seconds of the sky stage
-    double evaluated_fraction = 1.0;        // (texel, direction) pairs really traced / all
-    double predicted_rmse_over_mean = 0.0;  // of the hierarchy against full sampling, from the pilot directions
+    double rays_per_second = 0.0;              // skylight rays over the seconds of the sky stage
+    double evaluated_fraction = 1.0;           // (texel, direction) pairs really traced / all
+    double predicted_rmse_over_mean = 0.0;     // of the hierarchy against full sampling, from the pilot directions
+    double indirect_evaluated_fraction = 0.0;  // texels gathered from photons / covered texels; 0 without photons
+    PhotonBalance photons;
     std::uint64_t peak_rss_bytes = 0;
 };
 

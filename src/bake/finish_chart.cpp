@@ -88,6 +88,7 @@ void write_chart(ChartId id, const Chart& chart, const ChartSamples& samples, st
             for (std::size_t k = 0; k < layers.size(); ++k) {
                 layers[k]->sky[p] = light.sky[k][i];
                 layers[k]->sun_cosine[p] = light.sun_cosine[k][i];
+                if (!light.indirect.empty()) layers[k]->indirect[p] = light.indirect[k][i];
             }
             is_filled[static_cast<std::size_t>(row + kGutter) * static_cast<std::size_t>(width) +
                       static_cast<std::size_t>(column + kGutter)] = !buried[i];
@@ -129,6 +130,10 @@ void write_chart(ChartId id, const Chart& chart, const ChartSamples& samples, st
                     }
                     layer->sky[p] = share * sky;
                     layer->sun_cosine[p] = share * sun;
+                    if (layer->indirect.empty()) continue;
+                    Rgb indirect(0.0f);
+                    for (const std::size_t source : sources) indirect += layer->indirect[source];
+                    layer->indirect[p] = share * indirect;
                 }
                 next[i] = 1;
             }
@@ -193,6 +198,10 @@ void join_seams(const Atlas& atlas, Lightmaps& lightmaps) {
                     LightmapLayer& to = instant.pages[a.page.index()];
                     to.sky[p] = sky / weight_sum;
                     to.sun_cosine[p] = sun / weight_sum;
+                    if (to.indirect.empty()) continue;
+                    Rgb indirect(0.0f);
+                    for (const auto& [q, weight] : sources) indirect += weight * from.indirect[q];
+                    to.indirect[p] = indirect / weight_sum;
                 }
             }
         }
@@ -234,6 +243,7 @@ void light_hidden_edges(const Atlas& atlas, Lightmaps& lightmaps) {
                         LightmapLayer& to = instant.pages[a.page.index()];
                         to.sky[p] = from.sky[q];
                         to.sun_cosine[p] = from.sun_cosine[q];
+                        if (!to.indirect.empty()) to.indirect[p] = from.indirect[q];
                     }
                 }
             }

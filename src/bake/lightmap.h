@@ -32,6 +32,7 @@ struct LightmapLayer {
     std::vector<Rgb> sky;           // skylight
     std::vector<float> sun_cosine;  // sunlit share of the texel × cosine of incidence; × SunBeam::normal_illuminance is
                                     // the sun's light in lx
+    std::vector<Rgb> indirect;  // reflected light; empty when it was not asked for
 };
 
 struct BakedInstant {
@@ -44,10 +45,11 @@ struct Lightmaps {
     std::vector<BakedInstant> instants;
 };
 
-/// Sun and sky together, lx per channel.
+/// Sun, sky and reflected light together, lx per channel.
 inline Rgb total_irradiance(const BakedInstant& instant, std::size_t page, std::size_t texel) {
     const LightmapLayer& layer = instant.pages[page];
-    return layer.sky[texel] + layer.sun_cosine[texel] * instant.daylight.sun.normal_illuminance;
+    const Rgb direct = layer.sky[texel] + layer.sun_cosine[texel] * instant.daylight.sun.normal_illuminance;
+    return layer.indirect.empty() ? direct : direct + layer.indirect[texel];
 }
 
 }  // namespace skybake

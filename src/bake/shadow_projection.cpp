@@ -10,7 +10,8 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <map>
+#include <tuple>
+#include <utility>
 
 #include "bake/shadow_projection.h"
 #include "bake/sky_tile.h"
@@ -59,7 +60,7 @@ HWY_INLINE std::uint32_t overlapping(const ProjectionTile& tile, const OccluderT
     const Vec3f n = tile.axis_h;
     const auto top =
         hn::Add(linear(tag, n, -glm::dot(n, tile.origin), x, y, z), linear(tag, glm::abs(n), 0.0f, ex, ey, ez));
-    auto mask = hn::Gt(top, hn::Set(tag, tile.clearance));
+    auto mask = hn::Gt(top, hn::Zero(tag));
     const auto reach = hn::Max(top, zero);
     const auto test = [&](const Vec3f& axis, float mean, float spread, float lo, float hi) {
         const Vec3f a = axis - mean * n;
@@ -95,7 +96,7 @@ HWY_INLINE void append_overlapping(ProjectionTile& tile, const OccluderTree::Lea
         top = k == 0 ? h[k] : hn::Max(top, h[k]);
     }
     const V slack_u = hn::Mul(hn::Set(tag, range.spread.x), top), slack_v = hn::Mul(hn::Set(tag, range.spread.y), top);
-    auto mask = hn::Gt(top, hn::Set(tag, tile.clearance));
+    auto mask = hn::Gt(top, hn::Zero(tag));
     mask = hn::And(mask, hn::And(hn::Le(hn::Sub(lo_u, slack_u), hn::Set(tag, window.hi.x)),
                                  hn::Ge(hn::Add(hi_u, slack_u), hn::Set(tag, window.lo.x))));
     mask = hn::And(mask, hn::And(hn::Le(hn::Sub(lo_v, slack_v), hn::Set(tag, window.hi.y)),
@@ -413,17 +414,52 @@ HWY_EXPORT(FindCandidates);
 HWY_EXPORT(CastShadows);
 
 constexpr float kLowestCosine = 0.01f;
-// How far the surface of a planar chart may rise above the plane of its points, metres: build_atlas.cpp takes faces
-// within this distance for one plane.
-constexpr float kPlanarClearance = 0.01f;
-// A point this near its texel's centre stands for it, texels; and this near a plane, for a point of it, metres.
+// A point this near its texel's centre stands for it, texels; and this near a plane, for a point of it, metres: a few
+// roundings of coordinates of a kilometre, and less than points are lifted off their surface, so that it does not shade
+// itself.
 constexpr float kRegular = 5e-3f;
-constexpr float kFlat = 1e-3f;
-// A triangle of a relief chart with fewer texels is not worth a facet.
+constexpr float kFlat = 2e-4f;
+// A triangle with fewer texels is not worth a facet.
 constexpr std::size_t kFacetTexels = 24;
 // A quad costs some 5 cycles a direction even where its shadow falls beside the tile, and a ray of a packet some 100:
 // beyond so many quads rays are cheaper for tiles of a few hundred texels.
 constexpr std::size_t kCrowded = 8192;
+
+/// The plane h = slope · (u, v) + offset with the least squared distance from the points added.
+class PlaneFit {
+  public:
+    void add(const Vec2d& uv, double h) {
+        if (count_ == 0.0) first_ = {uv, h};
+        const Vec2d d = uv - Vec2d(first_);  // about the first point: fewer digits are lost
+        const double dh = h - first_.z;
+        count_ += 1.0;
+        sum_ += d;
+        sum_h_ += dh;
+        uu_ += d.x * d.x;
+        uv_ += d.x * d.y;
+        vv_ += d.y * d.y;
+        uh_ += d.x * dh;
+        vh_ += d.y * dh;
+    }
+
+    std::pair<Vec2f, float> plane() const {
+        const Vec2d mean = sum_ / count_;
+        const double mean_h = sum_h_ / count_;
+        // A row or a single point says nothing of the slope across: a trace of weight on 0 decides it.
+        constexpr double kFlatly = 1e-9;
+        const double a = uu_ - count_ * mean.x * mean.x + kFlatly, b = uv_ - count_ * mean.x * mean.y,
+                     d = vv_ - count_ * mean.y * mean.y + kFlatly, p = uh_ - count_ * mean.x * mean_h,
+                     q = vh_ - count_ * mean.y * mean_h;
+        const double determinant = a * d - b * b;
+        const Vec2d slope = Vec2d(d * p - b * q, a * q - b * p) / determinant;
+        return {Vec2f(slope), static_cast<float>(first_.z + mean_h - glm::dot(slope, mean + Vec2d(first_)))};
+    }
+
+  private:
+    Vec3d first_{0.0};
+    Vec2d sum_{0.0};
+    double count_ = 0.0, sum_h_ = 0.0, uu_ = 0.0, uv_ = 0.0, vv_ = 0.0, uh_ = 0.0, vh_ = 0.0;
+};
 
 }  // namespace
 
@@ -455,7 +491,6 @@ bool can_project(const Vec3f& normal, const Vec3f& direction) {
 ShadowProjector::ShadowProjector(const OccluderTree& tree, const TilePoints& points) : tree_(tree) {
     SKYBAKE_CHECK_LE(points.width, ProjectionTile::kMaxSize);
     SKYBAKE_CHECK_LE(points.height, ProjectionTile::kMaxSize);
-    const bool is_relief = !points.normal.empty();
     const TileFrame& frame = points.frame;
     tile_.width = points.width;
     tile_.height = points.height;
@@ -477,82 +512,79 @@ ShadowProjector::ShadowProjector(const OccluderTree& tree, const TilePoints& poi
             highest = std::max(highest, uvh[i].z);
         }
     }
-    // The points of a planar chart lie in one plane, and so does the chart, but for what its city's file has rounded.
-    const float base = is_relief ? lowest : highest;
-    tile_.origin = frame.origin + base * frame.normal;
-    tile_.relief = is_relief ? highest - lowest : 0.0f;
-    tile_.clearance = is_relief ? 0.0f : kPlanarClearance;
-    for (Vec3f& point : uvh) point.z = is_relief ? point.z - base : 0.0f;
+    tile_.origin = frame.origin + lowest * frame.normal;
+    tile_.relief = highest - lowest;
+    for (Vec3f& point : uvh) point.z -= lowest;
 
     find_facets(points, uvh);
     tile_.open_block.resize(tile_.in_use.size());
-    if (is_relief) {
-        tile_.projected_u.resize(tile_.u.size());
-        tile_.projected_v.resize(tile_.v.size());
-    }
+    tile_.projected_u.resize(tile_.u.size());
+    tile_.projected_v.resize(tile_.v.size());
 }
 
 void ShadowProjector::find_facets(const TilePoints& points, std::span<const Vec3f> uvh) {
-    const bool is_relief = !points.normal.empty();
-    const auto triangle_of = [&](std::size_t texel) { return is_relief ? points.triangle[texel] : 0u; };
-    const auto for_texels = [&](const auto& body) {
-        for (int row = 0; row < points.height; ++row) {
-            for (std::uint64_t left = points.covered[row]; left; left &= left - 1) {
-                const int column = std::countr_zero(left);
-                body(row, column, static_cast<std::size_t>(points.texel(column, row)));
-            }
-        }
+    struct Texel {
+        int row, column;
+        std::uint32_t triangle;
+        Vec3f uvh;
+        Vec2f center() const { return {static_cast<float>(column) + 0.5f, static_cast<float>(row) + 0.5f}; }
     };
-    std::map<std::uint32_t, std::size_t> count;  // texels of each triangle
-    for_texels([&](int, int, std::size_t i) { ++count[triangle_of(i)]; });
-    std::map<std::uint32_t, std::size_t> facet_of;
-    for (const auto& [triangle, texels] : count) {
-        if (is_relief && texels < kFacetTexels) continue;
-        facet_of.emplace(triangle, tile_.facets.size());
-        ProjectionTile::Facet& facet = tile_.facets.emplace_back();
-        facet.lo = Vec2f(std::numeric_limits<float>::max());
-        facet.hi = Vec2f(std::numeric_limits<float>::lowest());
+    std::vector<Texel> regular, loose;
+    for (int row = 0; row < points.height; ++row) {
+        for (std::uint64_t left = points.covered[row]; left; left &= left - 1) {
+            const int column = std::countr_zero(left);
+            const std::size_t i = static_cast<std::size_t>(points.texel(column, row));
+            const Texel texel{row, column, points.triangle[i], uvh[i]};
+            (glm::length(Vec2f(uvh[i]) - texel.center()) < kRegular ? regular : loose).push_back(texel);
+        }
     }
-    int last_row = -1;
-    const auto end_rows = [&](int row) {
-        for (; last_row < row; ++last_row) {
-            if (last_row >= 0) tile_.end_row.push_back(static_cast<std::uint32_t>(tile_.in_use.size()));
-            tile_.first_row.push_back(static_cast<std::uint32_t>(tile_.texel.size() / ProjectionTile::kBlock));
+    // All of one plane make one facet; else each triangle its own.
+    const auto add_facet = [&](std::span<const Texel> texels) {
+        PlaneFit fit;
+        for (const Texel& texel : texels) fit.add(texel.center(), texel.uvh.z);
+        const auto [slope, offset] = fit.plane();
+        ProjectionTile::Facet facet;
+        facet.slope = slope;
+        facet.offset = offset;
+        facet.row_begin = texels.front().row;
+        facet.row_end = texels.back().row + 1;
+        facet.lo = facet.hi = texels.front().center();
+        for (const Texel& texel : texels) {
+            const Vec2f center = texel.center();
+            if (!(std::abs(glm::dot(slope, center) + offset - texel.uvh.z) < kFlat)) return false;
+            facet.points[static_cast<std::size_t>(texel.row)] |= 1ull << texel.column;
+            facet.lo = glm::min(facet.lo, center);
+            facet.hi = glm::max(facet.hi, center);
         }
+        tile_.facets.push_back(facet);
+        return true;
     };
-    for_texels([&](int row, int column, std::size_t i) {
-        end_rows(row);
-        const Vec2f center(static_cast<float>(column) + 0.5f, static_cast<float>(row) + 0.5f);
-        const auto place = facet_of.find(triangle_of(i));
-        if (place != facet_of.end() && glm::length(Vec2f(uvh[i]) - center) < kRegular) {
-            ProjectionTile::Facet& facet = tile_.facets[place->second];
-            if (facet.row_end == 0) {
-                facet.row_begin = row;
-                if (is_relief) {
-                    // n · (p − p₀) = 0 with p = u · frame.u + v · frame.v + h · frame.normal.
-                    const Vec3f& n = points.normal[i];
-                    facet.slope = -Vec2f(glm::dot(n, points.frame.u), glm::dot(n, points.frame.v)) /
-                                  glm::dot(n, points.frame.normal);
-                    facet.offset = uvh[i].z - glm::dot(facet.slope, center);
-                }
-            }
-            if (std::abs(glm::dot(facet.slope, center) + facet.offset - uvh[i].z) < kFlat) {
-                facet.row_end = row + 1;
-                facet.points[static_cast<std::size_t>(row)] |= 1ull << column;
-                facet.lo = glm::min(facet.lo, center);
-                facet.hi = glm::max(facet.hi, center);
-                return;
-            }
+    if (!regular.empty() && !add_facet(regular)) {
+        std::stable_sort(regular.begin(), regular.end(),
+                         [](const Texel& a, const Texel& b) { return a.triangle < b.triangle; });
+        for (auto begin = regular.begin(); begin != regular.end();) {
+            const auto end =
+                std::find_if(begin, regular.end(), [&](const Texel& t) { return t.triangle != begin->triangle; });
+            const bool is_facet = static_cast<std::size_t>(end - begin) >= kFacetTexels && add_facet({begin, end});
+            if (!is_facet) loose.insert(loose.end(), begin, end);
+            begin = end;
         }
-        add_loose_point(row, column, uvh[i]);
+    }
+
+    std::stable_sort(loose.begin(), loose.end(), [](const Texel& a, const Texel& b) {
+        return std::tie(a.row, a.column) < std::tie(b.row, b.column);
     });
-    end_rows(points.height);
-    tile_.first_row.pop_back();
+    std::size_t next = 0;
+    for (int row = 0; row < points.height; ++row) {
+        tile_.first_row.push_back(static_cast<std::uint32_t>(tile_.texel.size() / ProjectionTile::kBlock));
+        for (; next < loose.size() && loose[next].row == row; ++next)
+            add_loose_point(row, loose[next].column, loose[next].uvh);
+        tile_.end_row.push_back(static_cast<std::uint32_t>(tile_.in_use.size()));
+    }
     while (tile_.texel.size() % ProjectionTile::kBlock != 0) {
         add_loose_point(0, 0, Vec3f(std::numeric_limits<float>::quiet_NaN()));
         tile_.in_use.back() &= ~(1u << ((tile_.texel.size() - 1) % ProjectionTile::kBlock));
     }
-    std::erase_if(tile_.facets, [](const ProjectionTile::Facet& facet) { return facet.row_end == 0; });
 }
 
 void ShadowProjector::add_loose_point(int row, int column, const Vec3f& uvh) {

@@ -40,9 +40,8 @@ struct SlopeRange {
 };
 
 /// What the projection works on: a tile's points and the quads that may shade them, in the tile's own frame: u and v
-/// along columns and rows, in texels, h along the chart's normal, in metres: above the lowest point of a relief chart,
-/// above the highest of a planar one. A parallel projection along a direction of slopes (s_u, s_v) carries (u, v, h) to
-/// (u − h s_u, v − h s_v).
+/// along columns and rows, in texels, h along the chart's normal above the lowest point, in metres. A parallel
+/// projection along a direction of slopes (s_u, s_v) carries (u, v, h) to (u − h s_u, v − h s_v).
 struct ProjectionTile {
     static constexpr int kMaxSize = 63;
     static constexpr int kBlock = OccluderTree::kWidth;
@@ -50,7 +49,7 @@ struct ProjectionTile {
     using Rows = std::array<std::uint64_t, kMaxSize + 1 + kBlock>;  // bit c: column c
 
     /// Points of one plane h = slope · (u, v) + offset that lie at their texels' centres: u = column + 0.5, v = row +
-    /// 0.5. A planar chart has one, a relief chart one a triangle.
+    /// 0.5. A planar chart has one, a bent one one a triangle.
     struct Facet {
         Vec2f slope{0.0f};  // metres per texel
         float offset = 0.0f;
@@ -62,8 +61,7 @@ struct ProjectionTile {
     };
 
     int width = 0, height = 0;
-    float relief = 0.0f;                             // highest h of a point, metres; 0 for planar charts
-    float clearance = 0.0f;                          // what does not rise above this h shades nothing, metres
+    float relief = 0.0f;                             // highest h of a point, metres
     Vec2f lo{0.0f}, hi{0.0f};                        // of the points' u and v
     Vec3f origin{0.0f};                              // of the frame, local metres
     Vec3f axis_u{0.0f}, axis_v{0.0f}, axis_h{0.0f};  // u = axis_u · (p − origin), and so on
@@ -76,7 +74,7 @@ struct ProjectionTile {
     std::vector<std::uint32_t> open_block;        // those that see the direction at hand
     std::vector<std::uint32_t> first_row;         // [row]: first block with a point of this row or a later one
     std::vector<std::uint32_t> end_row;           // [row]: first block with no point of this row or an earlier one
-    std::vector<float> projected_u, projected_v;  // along the direction at hand; relief charts only
+    std::vector<float> projected_u, projected_v;  // along the direction at hand
 
     /// Quads in the tile's frame, in whole blocks: [3 corner + 0, 1, 2][quad] is u, v, h; NaN behind the last one.
     struct Quads {

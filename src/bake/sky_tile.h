@@ -36,7 +36,7 @@ struct TilePoints {
     std::vector<std::uint64_t> covered;     // [row]: bit c set where texel c belongs to the surface
     std::vector<std::uint64_t> is_feature;  // [row]: texels near a place where other geometry touches the chart
     std::vector<Vec3f> normal;              // relief charts only, one a texel; else empty
-    std::vector<std::uint32_t> triangle;    // relief charts only: what the texel lies on
+    std::vector<std::uint32_t> triangle;    // what the texel lies on
     TileFrame frame;
 
     int texel(int column, int row) const { return row * width + column; }

@@ -34,4 +34,16 @@ constexpr float uniform_float(std::uint64_t seed, std::uint64_t id, std::uint64_
     return static_cast<float>(h >> 40) * 0x1p-24f;
 }
 
+/// The values uniform_float(seed, id, sample, 0), (…, 1), (…, 2), … one after the other.
+class RandomSequence {
+  public:
+    constexpr RandomSequence(std::uint64_t seed, std::uint64_t id, std::uint64_t sample)
+        : base_(hash_combine(hash_combine(seed, id), sample)) {}
+    constexpr float next() { return static_cast<float>(hash_combine(base_, dimension_++) >> 40) * 0x1p-24f; }
+
+  private:
+    std::uint64_t base_;
+    std::uint64_t dimension_ = 0;
+};
+
 }  // namespace skybake

@@ -16,8 +16,8 @@ struct FindingCode {
     std::string_view remedy;
 };
 
-/// SB1xx reading, SB2xx geometry, SB3xx place on Earth, SB4xx appearance, SB5xx ground. A code keeps its meaning for
-/// ever.
+/// SB1xx reading, SB2xx geometry, SB3xx place on Earth, SB4xx appearance, SB5xx ground, SB6xx light, SB7xx
+/// weather. A code keeps its meaning for ever.
 inline constexpr std::array kFindingCodes{
     FindingCode{"SB101", Severity::error, "part of the file is not built as the format says",
                 "Validate the file (cjval, val3dity, an XML schema) and export it again."},
@@ -117,6 +117,7 @@ inline constexpr std::array kFindingCodes{
                 "Nothing to do: light does not pass through surfaces in this version."},
     FindingCode{"SB407", Severity::info, "several themes; one of them is used",
                 "Name the wanted one as default-theme-material or default-theme-texture."},
+    FindingCode{"SB408", Severity::warning, "texture image cannot be read", "Save the image again as PNG or JPEG."},
 
     FindingCode{"SB501", Severity::warning, "city has no ground",
                 "Pass --ground plane or --ground draped to add one that receives light and shadow."},
@@ -129,6 +130,40 @@ inline constexpr std::array kFindingCodes{
     FindingCode{"SB603", Severity::info, "published level of the Preetham sky",
                 "Take level=clearsky for numbers that are to be relied on."},
     FindingCode{"SB604", Severity::warning, "there is no light at all", "Give --at, --sun-direction or another --sky."},
+    FindingCode{"SB605", Severity::warning, "weather is outside of what the Perez sky knows",
+                "Check the irradiances against the hour of the day (W/m²)."},
+    FindingCode{"SB606", Severity::warning, "there is no sun in the picture of the sky", "Take sun=keep."},
+    FindingCode{"SB607", Severity::warning, "picture of the sky has impossible values",
+                "Repair the picture: every channel is finite and not negative."},
+
+    FindingCode{"SB701", Severity::error, "row of the weather file is unreadable",
+                "Repair that row; a last row cut short means an incomplete download."},
+    FindingCode{"SB702", Severity::error, "irradiance of the weather file is impossible",
+                "Correct the row, or write 9999 for what is not known."},
+    FindingCode{"SB703", Severity::warning, "hour stands in the weather file twice",
+                "Leave one of them out, or state the records an hour in DATA PERIODS."},
+    FindingCode{"SB704", Severity::warning, "weather file has gaps", "Take a whole file where sums count."},
+    FindingCode{"SB705", Severity::info, "missing radiation follows from the two others", "Nothing to do."},
+    FindingCode{"SB706", Severity::warning, "hour of the weather file has no radiation",
+                "Choose another hour, or fill the row."},
+    FindingCode{"SB707", Severity::warning, "radiation of an hour does not add up",
+                "Take another source for such hours where they matter."},
+    FindingCode{"SB708", Severity::warning, "columns of radiation are exchanged",
+                "Nothing to do: they were exchanged. Its writer should keep to the order global, direct, diffuse."},
+    FindingCode{"SB709", Severity::warning, "hours of the weather file are not where the format has them",
+                "Nothing to do: the sun stands where the radiation says."},
+    FindingCode{"SB710", Severity::info, "middle of the hours cannot be found",
+                "Nothing to do, unless shadows of the morning and the evening look exchanged."},
+    FindingCode{"SB711", Severity::info, "place is that of the weather file",
+                "Pass --site LAT,LON where the city stands elsewhere."},
+    FindingCode{"SB712", Severity::warning, "weather is that of a far place",
+                "Take the weather file of a nearer place."},
+    FindingCode{"SB713", Severity::info, "weather file has no 29 February",
+                "Nothing to do: the weather is that of 28 February."},
+    FindingCode{"SB714", Severity::warning, "time zone of the weather file does not fit its longitude",
+                "Check longitude (east positive) and time zone in the LOCATION line."},
+    FindingCode{"SB715", Severity::warning, "header line of the weather file is missing or wrong",
+                "Write the line as in: DATA PERIODS,1,1,Data,Sunday,1/1,12/31."},
 };
 
 constexpr const FindingCode* find_code(std::string_view code) {

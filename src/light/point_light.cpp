@@ -65,4 +65,21 @@ std::vector<PointLight> light_points(std::span<const ReceiverPoint> points, cons
     return light;
 }
 
+std::vector<Rgb> light_points_by_lamps(std::span<const ReceiverPoint> points, std::span<const Lamp> lamps,
+                                       const RayScene& rays) {
+    std::vector<Rgb> light(points.size(), Rgb(0.0f));
+    if (lamps.empty()) return light;
+    tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
+        const Vec3f origin = points[i].position + rays.surface_offset() * points[i].normal;
+        for (const Lamp& lamp : lamps) {
+            const Rgb irradiance = unobstructed_irradiance(lamp, points[i].position, points[i].normal);
+            if (!(luminance(irradiance) > 0.0f)) continue;
+            const Vec3f to_lamp = lamp.position - origin;
+            const float distance = glm::length(to_lamp);
+            if (!rays.is_occluded(origin, to_lamp / distance, distance)) light[i] += irradiance;
+        }
+    });
+    return light;
+}
+
 }  // namespace skybake

@@ -7,6 +7,7 @@
 
 #include "base/rgb.h"
 #include "base/vec.h"
+#include "light/lamp.h"
 #include "sky/daylight.h"
 #include "sky/dome_sampling.h"
 #include "trace/ray_scene.h"
@@ -38,5 +39,9 @@ struct PointLightOptions {
 std::vector<PointLight> light_points(std::span<const ReceiverPoint> points, const DomeSampler& sampler,
                                      std::size_t instant, const SunBeam& sun, const RayScene& rays,
                                      const PointLightOptions& options);
+
+/// Irradiance by the lamps at each point, lx per channel: a ray to each lamp that shines on it. Parallel over points.
+std::vector<Rgb> light_points_by_lamps(std::span<const ReceiverPoint> points, std::span<const Lamp> lamps,
+                                       const RayScene& rays);
 
 }  // namespace skybake

@@ -12,6 +12,7 @@
 #include "base/rgb.h"
 #include "base/vec.h"
 #include "city/city_model.h"
+#include "scene/albedo_image.h"
 
 namespace skybake {
 
@@ -46,6 +47,7 @@ struct Scene {
     std::vector<Face> faces;           // sorted by object and source index
     std::vector<SceneMaterial> materials;
     std::vector<Texture> textures;
+    std::vector<AlbedoImage> albedo_images;  // one a texture; none where nobody asked for reflected light
 
     std::vector<std::array<Vec3f, 3>> triangles;     // local metres, counter-clockwise seen from outside
     std::vector<std::array<Vec2f, 3>> triangle_uvs;  // texture coordinates, (0, 0) lower left; zeros without a texture

@@ -96,6 +96,17 @@ double smooth_diffuse_luminous_efficacy(double dni, double dhi, double sun_zenit
            share * efficacy_of_bin(below + 2, zenith, perez.brightness, precipitable_water_cm);
 }
 
+double direct_luminous_efficacy(int bin, double brightness, double sun_zenith_rad, double precipitable_water_cm) {
+    constexpr double kCoefficients[8][4] = {{57.20, -4.55, -2.98, 117.12}, {98.99, -3.46, -1.21, 12.38},
+                                            {109.83, -4.90, -1.71, -8.81}, {110.34, -5.84, -1.99, -4.56},
+                                            {106.36, -3.97, -1.75, -6.16}, {107.19, -1.25, -1.51, -26.73},
+                                            {105.75, 0.77, -1.26, -34.44}, {101.18, 1.58, -1.10, -8.29}};
+    const double(&k)[4] = kCoefficients[bin - 1];
+    return std::max(0.0, k[0] + k[1] * precipitable_water_cm +
+                             k[2] * std::exp(5.73 * efficacy_zenith(sun_zenith_rad) - 5.0) +
+                             k[3] * std::clamp(brightness, 0.01, 0.6));
+}
+
 double twilight_illuminance(double sun_elevation_rad) {
     const double elevation = std::max(sun_elevation_rad, radians_from_degrees(-18.0));
     constexpr double kOutsideLx = 133'775.0;

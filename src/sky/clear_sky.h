@@ -32,6 +32,10 @@ double diffuse_luminous_efficacy(double dni, double dhi, double sun_zenith_rad, 
 double smooth_diffuse_luminous_efficacy(double dni, double dhi, double sun_zenith_rad, double extraterrestrial_w_m2,
                                         double precipitable_water_cm);
 
+/// Luminous efficacy of the sun's beam, lm W⁻¹, ≥ 0. The same paper, equation 8 and table 4 (direct). `bin` 1…8 and
+/// `brightness` as of perez_class.
+double direct_luminous_efficacy(int bin, double brightness, double sun_zenith_rad, double precipitable_water_cm);
+
 /// Luminous efficacy of an overcast or uniform sky, lm W⁻¹: what the formula above gives for ε = 1 and Δ = 0.2…0.4
 /// (113…117).
 inline constexpr double kOvercastEfficacy = 115.0;

@@ -17,6 +17,15 @@ Xyz xyz_of(const UniformSky& sky, const Vec3d& direction) {
 Xyz xyz_of(const PreethamSky& sky, const Vec3d& direction) {
     return sky_xyz(sky, direction);
 }
+Xyz xyz_of(const ImageSky& sky, const Vec3d& direction) {
+    return xyz_from_rgb(sky_luminance(sky, Vec3f(direction)));
+}
+/// Models that give luminance, with a colour beside it.
+template <typename Model>
+Xyz xyz_of(const Model& sky, const Vec3d& direction) {
+    const double luminance = sky_luminance_cd_m2(sky, direction);
+    return luminance > 0.0 ? coloured(sky.colour, luminance, direction) : Xyz(0.0);
+}
 
 double efficacy_lm_w(const NoSky&) {
     return kOvercastEfficacy;
@@ -24,7 +33,11 @@ double efficacy_lm_w(const NoSky&) {
 double efficacy_lm_w(const UniformSky&) {
     return kOvercastEfficacy;
 }
-double efficacy_lm_w(const PreethamSky& sky) {
+double efficacy_lm_w(const ImageSky&) {
+    return kOvercastEfficacy;
+}
+template <typename Model>
+double efficacy_lm_w(const Model& sky) {
     return sky.efficacy_lm_w;
 }
 
@@ -35,9 +48,10 @@ Xyz sky_xyz(const SkyModel& sky, const Vec3d& direction) {
 }
 
 Rgb sky_luminance(const SkyModel& sky, const Vec3f& direction) {
-    // A grey must stay exactly grey: it does not go through XYZ.
+    // A grey must stay exactly grey, and a pixel itself: they do not go through XYZ.
     if (const auto* uniform = std::get_if<UniformSky>(&sky))
         return direction.z < 0.0f ? Rgb(0.0f) : Rgb(uniform->luminance_cd_m2);
+    if (const auto* image = std::get_if<ImageSky>(&sky)) return sky_luminance(*image, direction);
     return rgb_from_xyz(sky_xyz(sky, Vec3d(direction)));
 }
 
@@ -47,23 +61,28 @@ float sky_radiance(const SkyModel& sky, const Vec3f& direction) {
 }
 
 HorizontalDiffuse horizontal_diffuse(const SkyModel& sky) {
+    if (const auto* image = std::get_if<ImageSky>(&sky)) {  // whose features no rule of fixed points can resolve
+        const Rgb illuminance(horizontal_illuminance(*image->image));
+        return {illuminance, static_cast<double>(luminance(illuminance)) / kOvercastEfficacy};
+    }
     // Midpoint rule in cos² of the zenith angle, whose cells weigh the same in the cosine integral, and in azimuth.
-    constexpr int kRings = 96;
-    constexpr int kSectors = 96;
+    constexpr int kRings = 128;
+    constexpr int kSectors = 128;
     Vec3d rgb(0.0);
-    double radiance = 0.0;
+    double sum = 0.0;
     for (int ring = 0; ring < kRings; ++ring) {
         const double z = std::sqrt((ring + 0.5) / kRings);
         const double horizontal = std::sqrt(1.0 - z * z);
         for (int sector = 0; sector < kSectors; ++sector) {
             const double azimuth = 2.0 * kPi * (sector + 0.5) / kSectors;
-            const Vec3f direction(Vec3d(horizontal * std::sin(azimuth), horizontal * std::cos(azimuth), z));
-            rgb += Vec3d(sky_luminance(sky, direction));
-            radiance += sky_radiance(sky, direction);
+            const Xyz xyz = sky_xyz(sky, {horizontal * std::sin(azimuth), horizontal * std::cos(azimuth), z});
+            rgb += Vec3d(rgb_from_xyz(xyz));
+            sum += xyz.y;
         }
     }
     const double weight = kPi / (kRings * kSectors);
-    return {Rgb(rgb * weight), radiance * weight};
+    const double efficacy = std::visit([](const auto& model) { return efficacy_lm_w(model); }, sky);
+    return {Rgb(rgb * weight), sum * weight / efficacy};
 }
 
 }  // namespace skybake

@@ -6,6 +6,9 @@
 
 #include "base/rgb.h"
 #include "base/vec.h"
+#include "sky/cie_sky.h"
+#include "sky/image_sky.h"
+#include "sky/perez_sky.h"
 #include "sky/preetham.h"
 
 namespace skybake {
@@ -18,12 +21,12 @@ struct UniformSky {
 /// No skylight at all.
 struct NoSky {};
 
-/// The closed set of sky models. A new one adds an alternative here and an overload of the two functions that
-/// daylight.cpp visits it with.
-using SkyModel = std::variant<NoSky, UniformSky, PreethamSky>;
+/// The closed set of sky models. A new one adds an alternative here and the overloads that daylight.cpp visits it
+/// with.
+using SkyModel = std::variant<NoSky, UniformSky, PreethamSky, PerezSky, CieGeneralSky, Cie1994Sky, ImageSky>;
 
 /// Luminance of the sky in a unit direction of the world frame, cd m⁻² per channel; 0 below the horizon; never
-/// negative, always finite. Costs about 0.1 µs. Thread-safe.
+/// negative, always finite. Costs about 0.1 µs (with colour by Preetham 0.2 µs). Thread-safe.
 Rgb sky_luminance(const SkyModel& sky, const Vec3f& direction);
 
 /// The same as CIE 1931 XYZ (Y in cd m⁻²) before the colour is brought into Rec. 709.

@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sky/spectral_tables.h"
+
 namespace skybake {
 
 namespace {
-
-/// Directions lower than this (0.06°) are evaluated here, as in the authors' program: e^{B/cos θ} has no limit it
-/// needs.
-constexpr double kLeastCosZenith = 0.001;
 
 struct Linear {
     double slope;
@@ -28,13 +26,10 @@ double zenith_chromaticity(const double (&m)[3][4], double turbidity, double sun
     return value;
 }
 
-double relative_value(const PerezDistribution& p, double cos_zenith, double gamma, double cos_gamma) {
-    return (1.0 + p.a * std::exp(p.b / cos_zenith)) * (1.0 + p.c * std::exp(p.d * gamma) + p.e * cos_gamma * cos_gamma);
-}
-
 /// The scale that makes the distribution `zenith_value` at the zenith.
 void fix_zenith(PerezDistribution& p, double zenith_value, double sun_zenith) {
-    p.scale = zenith_value / relative_value(p, 1.0, sun_zenith, std::cos(sun_zenith));
+    p.scale = 1.0;
+    p.scale = zenith_value / value_of(p, {1.0, sun_zenith, std::cos(sun_zenith)});
 }
 
 }  // namespace
@@ -42,12 +37,7 @@ void fix_zenith(PerezDistribution& p, double zenith_value, double sun_zenith) {
 PreethamSky preetham_sky(double turbidity, const Vec3d& sun_direction) {
     const double t = std::clamp(turbidity, kPreethamLeastTurbidity, kPreethamMostTurbidity);
     PreethamSky sky;
-    sky.sun_direction = sun_direction;
-    if (sun_direction.z < 0.0) {
-        const double horizontal = std::hypot(sun_direction.x, sun_direction.y);
-        sky.sun_direction = horizontal > 0.0 ? Vec3d(sun_direction.x / horizontal, sun_direction.y / horizontal, 0.0)
-                                             : Vec3d(0.0, 1.0, 0.0);
-    }
+    sky.sun_direction = lifted_to_horizon(sun_direction);
     const double sun_zenith = std::acos(std::min(sky.sun_direction.z, 1.0));
 
     sky.luminance = {Linear{0.17872, -1.46303}(t), Linear{-0.35540, 0.42749}(t), Linear{-0.02266, 5.32505}(t),
@@ -72,24 +62,7 @@ PreethamSky preetham_sky(double turbidity, const Vec3d& sun_direction) {
 }
 
 double horizontal_illuminance(const PreethamSky& sky) {
-    // Midpoint rule in cos² θ (equal weights of the cosine) and in the azimuth from the sun, over one of the two
-    // mirrored halves.
-    constexpr int kRings = 96;
-    constexpr int kSectors = 48;
-    const double sun_cos = sky.sun_direction.z;
-    const double sun_sin = std::sqrt(std::max(0.0, 1.0 - sun_cos * sun_cos));
-    double sum = 0.0;
-    for (int ring = 0; ring < kRings; ++ring) {
-        const double cos_zenith = std::sqrt((ring + 0.5) / kRings);
-        const double sin_zenith = std::sqrt(1.0 - cos_zenith * cos_zenith);
-        for (int sector = 0; sector < kSectors; ++sector) {
-            const double cos_gamma = std::clamp(
-                sun_cos * cos_zenith + sun_sin * sin_zenith * std::cos(kPi * (sector + 0.5) / kSectors), -1.0, 1.0);
-            sum += std::max(0.0, relative_value(sky.luminance, std::max(cos_zenith, kLeastCosZenith),
-                                                std::acos(cos_gamma), cos_gamma));
-        }
-    }
-    return sky.luminance.scale * sum * kPi / (kRings * kSectors);
+    return horizontal_integral(sky.luminance, sky.sun_direction.z);
 }
 
 PreethamSky scaled_to(PreethamSky sky, double illuminance_lx) {
@@ -99,16 +72,38 @@ PreethamSky scaled_to(PreethamSky sky, double illuminance_lx) {
     return sky;
 }
 
+Vec2d chromaticity(const PreethamSky& sky, const Vec3d& direction) {
+    const ViewAngles view = view_angles(direction, sky.sun_direction);
+    return {value_of(sky.x, view), value_of(sky.y, view)};
+}
+
 Xyz sky_xyz(const PreethamSky& sky, const Vec3d& direction) {
     if (direction.z < 0.0) return Xyz(0.0);
-    const double cos_zenith = std::max(direction.z, kLeastCosZenith);
-    const double cos_gamma = std::clamp(glm::dot(direction, sky.sun_direction), -1.0, 1.0);
-    const double gamma = std::acos(cos_gamma);
-    const double luminance = sky.luminance.scale * relative_value(sky.luminance, cos_zenith, gamma, cos_gamma);
+    const double luminance = value_of(sky.luminance, view_angles(direction, sky.sun_direction));
     if (!(luminance > 0.0)) return Xyz(0.0);
-    const double x = sky.x.scale * relative_value(sky.x, cos_zenith, gamma, cos_gamma);
-    const double y = sky.y.scale * relative_value(sky.y, cos_zenith, gamma, cos_gamma);
-    return xyz_from_luminance(luminance, x, y);
+    const Vec2d xy = chromaticity(sky, direction);
+    return xyz_from_luminance(luminance, xy.x, xy.y);
+}
+
+std::array<double, kSkyWavelengths> sky_spectrum(const PreethamSky& sky, const Vec3d& direction) {
+    std::array<double, kSkyWavelengths> spectrum{};
+    const double luminance = sky_xyz(sky, direction).y;
+    if (!(luminance > 0.0)) return spectrum;
+    const Vec2d xy = chromaticity(sky, direction);
+    const double m = 0.0241 + 0.2562 * xy.x - 0.7341 * xy.y;
+    const double m1 = (-1.3515 - 1.7703 * xy.x + 5.9114 * xy.y) / m;
+    const double m2 = (0.0300 - 31.4424 * xy.x + 30.0717 * xy.y) / m;
+    const auto observer = standard_observer();
+    double sum = 0.0;
+    for (std::size_t i = 0; i < spectrum.size(); ++i) {
+        const double lambda_nm = kFirstLambdaNm + kLambdaStepNm * static_cast<double>(i);
+        spectrum[i] = std::max(0.0, daylight_component(0, lambda_nm) + m1 * daylight_component(1, lambda_nm) +
+                                        m2 * daylight_component(2, lambda_nm));
+        sum += spectrum[i] * observer[i][1];
+    }
+    const double k = luminance / (kMaxLuminousEfficacy * kLambdaStepNm * sum);
+    for (double& value : spectrum) value *= k;
+    return spectrum;
 }
 
 }  // namespace skybake

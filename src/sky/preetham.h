@@ -3,20 +3,13 @@
 // the model fails).
 #pragma once
 
+#include <array>
+
 #include "base/vec.h"
 #include "sky/colour.h"
+#include "sky/five_parameter_sky.h"
 
 namespace skybake {
-
-/// scale (1 + A e^{B/cos θ}) (1 + C e^{D γ} + E cos² γ): θ from the zenith, γ from the sun.
-struct PerezDistribution {
-    double a = 0.0;
-    double b = 0.0;
-    double c = 0.0;
-    double d = 0.0;
-    double e = 0.0;
-    double scale = 0.0;
-};
 
 /// A Preetham sky for one turbidity and sun; made by preetham_sky, evaluated in any number of directions.
 struct PreethamSky {
@@ -43,7 +36,18 @@ PreethamSky scaled_to(PreethamSky sky, double illuminance_lx);
 /// Illuminance of the open horizontal plane by the whole sky, lx; quadrature error below 1e-4.
 double horizontal_illuminance(const PreethamSky& sky);
 
+/// CIE 1931 chromaticity (x, y) in a unit direction above the horizon.
+Vec2d chromaticity(const PreethamSky& sky, const Vec3d& direction);
+
 /// Luminance (cd m⁻²) with its colour in a unit direction; black below the horizon.
 Xyz sky_xyz(const PreethamSky& sky, const Vec3d& direction);
+
+/// 380…780 nm in steps of 5 nm, as standard_observer().
+inline constexpr std::size_t kSkyWavelengths = 81;
+
+/// Spectral radiance in a unit direction, W m⁻² sr⁻¹ nm⁻¹: the model's xyY as CIE daylight, k (S0 + M1 S1 + M2 S2)
+/// (appendix A.5), with k such that its luminance is the model's. Far from white (low sun) the sum turns negative at
+/// some wavelengths: those are 0, and k makes up for them. Zeros below the horizon.
+std::array<double, kSkyWavelengths> sky_spectrum(const PreethamSky& sky, const Vec3d& direction);
 
 }  // namespace skybake

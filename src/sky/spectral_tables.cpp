@@ -9,7 +9,7 @@ namespace skybake {
 namespace {
 
 // clang-format off
-// CIE 1931 2° standard observer (CIE 015), 380…750 nm in steps of 5 nm: x̄, ȳ, z̄.
+// CIE 1931 2° standard observer (CIE 015), 380…780 nm in steps of 5 nm: x̄, ȳ, z̄.
 constexpr std::array<double, 3> kObserver[] = {
     {0.001368, 3.9e-05, 0.006450001}, {0.002236, 6.4e-05, 0.01054999}, {0.004243, 0.00012, 0.02005001},
     {0.00765, 0.000217, 0.03621}, {0.01431, 0.000396, 0.06785001}, {0.02319, 0.00064, 0.1102}, {0.04351, 0.00121, 0.2074},
@@ -30,6 +30,7 @@ constexpr std::array<double, 3> kObserver[] = {
     {0.005790346, 0.002091, 0}, {0.004109457, 0.001484, 0}, {0.002899327, 0.001047, 0}, {0.00204919, 0.00074, 0},
     {0.001439971, 0.00052, 0}, {0.0009999493, 0.0003611, 0}, {0.0006900786, 0.0002492, 0}, {0.0004760213, 0.0001719, 0},
     {0.0003323011, 0.00012, 0},
+    {0.000234826, 8.48e-05, 0}, {0.000166151, 6e-05, 0}, {0.000117413, 4.24e-05, 0}, {8.30753e-05, 3e-05, 0}, {5.87065e-05, 2.12e-05, 0}, {4.15099e-05, 1.499e-05, 0},
 };
 
 // Sun outside the atmosphere at 1 AU, W m⁻² sr⁻¹ nm⁻¹, 380…750 nm in steps of 10 nm (Preetham et al. 1999, table 2, as the authors' code scales it).
@@ -38,6 +39,20 @@ constexpr double kSunRadiance[] = {
     27100.6, 27233.6, 26361.3, 25503.8, 25060.2, 25311.6, 25355.9, 25134.2, 24631.5, 24173.2, 23685.3, 23212.1, 22827.7, 22339.8,
     21970.2, 21526.7, 21097.9, 20728.3, 20240.4, 19870.8, 19427.2, 19072.4, 18628.9, 18259.2,
 };
+
+// CIE daylight (CIE 015): mean spectrum and its first two components, 380…780 nm in steps of 10 nm.
+constexpr std::array<double, 41> kDaylight[] = {{
+    63.4, 65.8, 94.8, 104.8, 105.9, 96.8, 113.9, 125.6, 125.5, 121.3, 121.3, 113.5, 113.1, 110.8, 106.5, 108.8, 105.3,
+    104.4, 100, 96, 95.1, 89.1, 90.5, 90.3, 88.4, 84, 85.1, 81.9, 82.6, 84.9, 81.3, 71.9, 74.3, 76.4, 63.3, 71.7, 77,
+    65.2, 47.7, 68.6, 65,
+}, {
+    38.5, 35, 43.4, 46.3, 43.9, 37.1, 36.7, 35.9, 32.6, 27.9, 24.3, 20.1, 16.2, 13.2, 8.6, 6.1, 4.2, 1.9, 0, -1.6,
+    -3.5, -3.5, -5.8, -7.2, -8.6, -9.5, -10.9, -10.7, -12, -14, -13.6, -12, -13.3, -12.9, -10.6, -11.6, -12.2, -10.2,
+    -7.8, -11.2, -10.4,
+}, {
+    3, 1.2, -1.1, -0.5, -0.7, -1.2, -2.6, -2.9, -2.8, -2.6, -2.6, -1.8, -1.5, -1.3, -1.2, -1, -0.5, -0.3, 0, 0.2, 0.5,
+    2.1, 3.2, 4.1, 4.7, 5.1, 6.7, 7.3, 8.6, 9.8, 10.2, 8.3, 9.6, 8.5, 7, 7.6, 8, 6.7, 5.2, 7.4, 6.8,
+}};
 
 struct Sample {
     double lambda_nm;
@@ -83,6 +98,14 @@ double extraterrestrial_sun_radiance(double lambda_nm) {
     const std::size_t before = std::min(static_cast<std::size_t>(place), std::size(kSunRadiance) - 2);
     const double share = place - static_cast<double>(before);
     return kSunRadiance[before] + share * (kSunRadiance[before + 1] - kSunRadiance[before]);
+}
+
+double daylight_component(int component, double lambda_nm) {
+    const std::array<double, 41>& table = kDaylight[component];
+    const double place = (lambda_nm - kFirstLambdaNm) / 10.0;
+    if (place < 0.0 || place > static_cast<double>(table.size() - 1)) return 0.0;
+    const std::size_t before = std::min(static_cast<std::size_t>(place), table.size() - 2);
+    return table[before] + (place - static_cast<double>(before)) * (table[before + 1] - table[before]);
 }
 
 double ozone_absorption(double lambda_nm) {

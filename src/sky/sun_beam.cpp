@@ -31,18 +31,22 @@ BeamTransmittance beam_transmittance(double lambda_nm, double m, double turbidit
     return tau;
 }
 
+double sun_normal_irradiance(double lambda_nm, double turbidity, double sun_zenith_rad, double distance_au) {
+    if (sun_zenith_rad >= kPi / 2.0) return 0.0;
+    return extraterrestrial_sun_radiance(lambda_nm) *
+           beam_transmittance(lambda_nm, air_mass(sun_zenith_rad), turbidity).total() * kPreethamSunSolidAngle /
+           (distance_au * distance_au);
+}
+
 Xyz sun_normal_illuminance(double turbidity, double sun_zenith_rad, double distance_au) {
-    if (sun_zenith_rad >= kPi / 2.0) return Xyz(0.0);
-    const double m = air_mass(sun_zenith_rad);
     const auto observer = standard_observer();
     Xyz sum(0.0);
     for (std::size_t i = 0; i < observer.size(); ++i) {
         const double lambda_nm = kFirstLambdaNm + kLambdaStepNm * static_cast<double>(i);
-        const double radiance =
-            extraterrestrial_sun_radiance(lambda_nm) * beam_transmittance(lambda_nm, m, turbidity).total();
-        sum += radiance * Xyz(observer[i][0], observer[i][1], observer[i][2]);
+        sum += sun_normal_irradiance(lambda_nm, turbidity, sun_zenith_rad, distance_au) *
+               Xyz(observer[i][0], observer[i][1], observer[i][2]);
     }
-    return sum * (kMaxLuminousEfficacy * kLambdaStepNm * kPreethamSunSolidAngle / (distance_au * distance_au));
+    return sum * (kMaxLuminousEfficacy * kLambdaStepNm);
 }
 
 }  // namespace skybake

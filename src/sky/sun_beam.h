@@ -31,6 +31,10 @@ struct BeamTransmittance {
 /// With 0.35 cm of ozone and 2 cm of precipitable water, at sea level.
 BeamTransmittance beam_transmittance(double lambda_nm, double relative_air_mass, double turbidity);
 
+/// Irradiance of a plane that faces the sun at one wavelength, W m⁻² nm⁻¹; 0 outside 380…750 nm, and for a sun on or
+/// below the horizon.
+double sun_normal_irradiance(double lambda_nm, double turbidity, double sun_zenith_rad, double distance_au);
+
 /// Illuminance (Y, lx) of a plane that faces the sun, with its colour: 380…750 nm in steps of 5 nm over the CIE 1931
 /// observer. 0 for a sun on or below the horizon.
 Xyz sun_normal_illuminance(double turbidity, double sun_zenith_rad, double distance_au);

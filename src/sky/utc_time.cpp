@@ -292,6 +292,21 @@ std::vector<Instant> parse_instants(std::string_view text, const std::optional<s
     return instants;
 }
 
+int standard_utc_offset_min(int year, const std::string& timezone) {
+    const date::time_zone& zone = zone_of(timezone);
+    auto least = std::chrono::seconds::max();
+    // Clocks keep a time for weeks at least.
+    const date::sys_days new_year{date::year{year} / date::January / 1};
+    for (int day = 0; day < 366; day += 7) least = std::min(least, zone.get_info(new_year + date::days(day)).offset);
+    return static_cast<int>(std::chrono::duration_cast<std::chrono::minutes>(least).count());
+}
+
+int year_of(const Instant& instant) {
+    const date::sys_time<milliseconds> local(
+        milliseconds(instant.utc.milliseconds + std::int64_t{60'000} * instant.utc_offset_min));
+    return static_cast<int>(date::year_month_day(date::floor<date::days>(local)).year());
+}
+
 std::string to_iso8601(const Instant& instant) {
     const date::sys_time<milliseconds> local(
         milliseconds(instant.utc.milliseconds + std::int64_t{60'000} * instant.utc_offset_min));

@@ -46,6 +46,13 @@ Instant parse_instant(std::string_view text, const std::optional<std::string>& t
 /// before its START and an instant that occurs twice.
 std::vector<Instant> parse_instants(std::string_view text, const std::optional<std::string>& timezone);
 
+/// The least offset from UTC, minutes, that the clocks of an IANA zone have in a year: that of its standard time.
+/// Throws InputError for a zone that nobody knows.
+int standard_utc_offset_min(int year, const std::string& timezone);
+
+/// The calendar year of an instant by its own offset.
+int year_of(const Instant& instant);
+
 /// ISO 8601 with the instant's own offset: "2026-06-21T12:00:00+02:00", "…Z" for offset 0; milliseconds only where
 /// there are any.
 std::string to_iso8601(const Instant& instant);

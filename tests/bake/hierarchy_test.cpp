@@ -73,6 +73,47 @@ TEST(Hierarchy, KeepsItsToleranceAndSavesRays) {
     EXPECT_LE(report.evaluated_fraction, 0.25);
 }
 
+Lightmaps bake_with_photons(const Scene& scene, const Atlas& atlas, SkySampling sampling, BakeReport& report) {
+    const RayScene rays(scene);
+    SilentProgress silent;
+    const std::vector<Daylight> instants{
+        {"noon",
+         UniformSky{1000.0f},
+         {glm::normalize(Vec3f(0.3f, -0.6f, 0.7f)), Rgb(50000.0f), 700.0f, 0.00465f, SunShape::point}}};
+    BakeOptions options{64, sampling, 0.01f, BouncePhotons{}};
+    options.bounces->photons.count = 50'000;
+    return bake_lightmaps(scene, atlas, rays, instants, options, silent, report);
+}
+
+/// Reflected light from a lattice against every texel's own, from one photon map.
+TEST(IndirectHierarchy, KeepsItsToleranceAndSavesGathers) {
+    const Scene scene = box_town();
+    const Atlas atlas = build_atlas(scene, {0.5f});
+    BakeReport full_report, report;
+    const Lightmaps full = bake_with_photons(scene, atlas, SkySampling::full, full_report);
+    const Lightmaps fast = bake_with_photons(scene, atlas, SkySampling::projected, report);
+    double error2 = 0.0, total = 0.0, indirect = 0.0, count = 0.0;
+    for (std::size_t p = 0; p < full.pages.size(); ++p) {
+        for (std::size_t i = 0; i < full.pages[p].state.size(); ++i) {
+            if (full.pages[p].state[i] != TexelState::chart || fast.pages[p].state[i] != TexelState::chart) continue;
+            const double a = static_cast<double>(luminance(full.instants[0].pages[p].indirect[i])),
+                         b = static_cast<double>(luminance(fast.instants[0].pages[p].indirect[i]));
+            error2 += (a - b) * (a - b);
+            total += static_cast<double>(luminance(total_irradiance(full.instants[0], p, i)));
+            indirect += a;
+            ++count;
+        }
+    }
+    std::printf("gathered %.3f of the texels, rmse %.4f of the mean light, %.3f of it reflected\n",
+                report.indirect_evaluated_fraction, std::sqrt(error2 / count) / (total / count), indirect / total);
+    EXPECT_GT(indirect, 0.03 * total);
+    EXPECT_EQ(full_report.indirect_evaluated_fraction, 1.0);
+    EXPECT_LE(std::sqrt(error2 / count) / (total / count), 0.01);
+    EXPECT_LE(report.indirect_evaluated_fraction, 0.8);
+    EXPECT_NEAR((report.photons.absorbed + report.photons.escaped + report.photons.at_limit) / report.photons.emitted,
+                1.0, 1e-9);
+}
+
 TEST(Hierarchy, SameBitsForAnyNumberOfThreads) {
     const Scene scene = box_town();
     const Atlas atlas = build_atlas(scene, {0.5f});

@@ -2,8 +2,9 @@
 #include "bake/shadow_projection.h"
 
 #include <gtest/gtest.h>
+#include <hwy/targets.h>
 
-#include <bit>
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -62,10 +63,8 @@ TilePoints tile(const Vec3f& center, const Vec3f& normal, float texel, int size,
             points.x.push_back(p.x);
             points.y.push_back(p.y);
             points.z.push_back(p.z);
-            if (shape == Shape::bumps || shape == Shape::ridge) {
-                points.normal.push_back(own_normal);
-                points.triangle.push_back(shape == Shape::bumps ? i : static_cast<std::uint32_t>(2 * column >= size));
-            }
+            if (shape == Shape::bumps || shape == Shape::ridge) points.normal.push_back(own_normal);
+            points.triangle.push_back(shape == Shape::bumps ? i : static_cast<std::uint32_t>(2 * column >= size));
             if (shape != Shape::moved || random < 0.9f) points.covered[row] |= 1ull << column;
         }
     }
@@ -77,32 +76,43 @@ struct Difference {
     std::size_t pairs = 0, off = 0, visible = 0;
 };
 
-Difference difference(const Scene& scene, const TilePoints& points) {
+/// [direction][row], of those directions that can be projected; else empty.
+std::vector<std::vector<std::uint64_t>> visibilities(const Scene& scene, const TilePoints& points,
+                                                     const std::vector<Vec3f>& directions) {
     const OccluderTree tree(scene);
-    const RayScene rays(scene);
-    const std::vector<Vec3f> directions = dome(512);
     std::vector<std::uint32_t> chosen;
     for (std::uint32_t j = 0; j < directions.size(); ++j) {
         if (can_project(points.frame.normal, directions[j])) chosen.push_back(j);
     }
     const DirectionBundles bundles(directions, chosen);
     ShadowProjector projector(tree, points);
-    std::vector<std::uint64_t> visible(points.covered.size());
-    Difference result;
+    std::vector<std::vector<std::uint64_t>> visible(directions.size());
     for (std::size_t b = 0; b < bundles.size(); ++b) {
         projector.set_bundle(directions, bundles[b]);
         for (const std::uint32_t j : bundles[b]) {
-            EXPECT_TRUE(projector.find_visible(directions[j], visible));
-            for (int row = 0; row < points.height; ++row) {
-                EXPECT_EQ(visible[row] & ~points.covered[row], 0u);
-                for (int column = 0; column < points.width; ++column) {
-                    if (!(points.covered[row] >> column & 1)) continue;
-                    const std::size_t i = static_cast<std::size_t>(points.texel(column, row));
-                    const bool sees = !rays.is_occluded({points.x[i], points.y[i], points.z[i]}, directions[j]);
-                    result.off += sees != static_cast<bool>(visible[row] >> column & 1);
-                    result.visible += sees;
-                    ++result.pairs;
-                }
+            visible[j].resize(points.covered.size());
+            EXPECT_TRUE(projector.find_visible(directions[j], visible[j]));
+        }
+    }
+    return visible;
+}
+
+Difference difference(const Scene& scene, const TilePoints& points) {
+    const RayScene rays(scene);
+    const std::vector<Vec3f> directions = dome(512);
+    const std::vector<std::vector<std::uint64_t>> visible = visibilities(scene, points, directions);
+    Difference result;
+    for (std::size_t j = 0; j < directions.size(); ++j) {
+        if (visible[j].empty()) continue;
+        for (int row = 0; row < points.height; ++row) {
+            EXPECT_EQ(visible[j][row] & ~points.covered[row], 0u);
+            for (int column = 0; column < points.width; ++column) {
+                if (!(points.covered[row] >> column & 1)) continue;
+                const std::size_t i = static_cast<std::size_t>(points.texel(column, row));
+                const bool sees = !rays.is_occluded({points.x[i], points.y[i], points.z[i]}, directions[j]);
+                result.off += sees != static_cast<bool>(visible[j][row] >> column & 1);
+                result.visible += sees;
+                ++result.pairs;
             }
         }
     }
@@ -140,6 +150,97 @@ TEST(ShadowProjection, SeesWhatRaysSee) {
             }
         }
     }
+}
+
+TEST(ShadowProjection, SameBitsOnEveryInstructionSet) {
+    const Scene scene = clutter();
+    const std::vector<Vec3f> directions = dome(256);
+    const std::int64_t all = hwy::SupportedTargets();
+    for (const Shape shape : {Shape::plane, Shape::moved, Shape::bumps, Shape::ridge}) {
+        const TilePoints points = tile({0, 0, 1.0f}, glm::normalize(Vec3f(2, 1, 2)), 0.11f, 45, shape);
+        hwy::GetChosenTarget().Update(all);
+        const std::vector<std::vector<std::uint64_t>> expected = visibilities(scene, points, directions);
+        for (std::int64_t left = all; left; left &= left - 1) {
+            hwy::GetChosenTarget().Update(left & -left);
+            EXPECT_EQ(visibilities(scene, points, directions), expected) << "instruction set " << (left & -left);
+        }
+    }
+    hwy::GetChosenTarget().Update(all);
+}
+
+TEST(ShadowProjection, AWallIsHiddenByItsNeighbour) {
+    // Two houses abut with 3 mm between their walls; the points lie 1 mm before the first one.
+    const Scene scene = QuadScene()
+                            .quad({0, -9, 0}, {0, 9, 0}, {0, 9, 9}, {0, -9, 9})
+                            .quad({0.003f, 9, 0}, {0.003f, -9, 0}, {0.003f, -9, 9}, {0.003f, 9, 9})
+                            .scene();
+    const std::vector<Vec3f> directions = dome(256);
+    for (const auto& visible : visibilities(scene, tile({0, 0, 4}, {1, 0, 0}, 0.25f, 20, Shape::plane), directions)) {
+        for (const std::uint64_t row : visible) EXPECT_EQ(row, 0u);
+    }
+}
+
+TEST(ShadowProjection, AnEmptySceneShadesNothing) {
+    const TilePoints points = tile({0, 0, 0}, {0, 0, 1}, 0.5f, 5, Shape::plane);
+    const std::vector<Vec3f> directions = dome(16);
+    for (const std::vector<std::uint64_t>& visible : visibilities(Scene(), points, directions)) {
+        if (visible.empty()) continue;
+        EXPECT_EQ(visible, points.covered);
+    }
+}
+
+TEST(ShadowProjection, LeavesCrowdsToRays) {
+    // 10,000 shingles above the tile, each alone: none makes a pair with another.
+    QuadScene shingles;
+    for (int i = 0; i < 10000; ++i) {
+        const Vec3f at(0.04f * static_cast<float>(i % 100) - 2.0f, 0.04f * static_cast<float>(i / 100) - 2.0f, 3.0f);
+        shingles.quad(at, at + Vec3f(0.02f, 0, 0.01f), at + Vec3f(0.02f, 0.02f, 0.01f), at + Vec3f(0, 0.02f, 0));
+    }
+    const Scene scene = shingles.scene();
+    const OccluderTree tree(scene);
+    ShadowProjector projector(tree, tile({0, 0, 0}, {0, 0, 1}, 0.1f, 50, Shape::plane));
+    const std::vector<Vec3f> up{{0, 0, 1}};
+    const std::vector<std::uint32_t> first{0};
+    projector.set_bundle(up, first);
+    std::vector<std::uint64_t> visible(50);
+    EXPECT_FALSE(projector.find_visible(up[0], visible));
+}
+
+TEST(DirectionBundles, HoldEveryChosenDirectionOnceAmongItsNeighbours) {
+    const std::vector<Vec3f> directions = dome(1000);
+    std::vector<std::uint32_t> chosen;
+    for (std::uint32_t j = 0; j < 1000; j += 3) chosen.push_back(j);
+    const DirectionBundles bundles(directions, chosen);
+    std::vector<std::uint32_t> found;
+    for (std::size_t b = 0; b < bundles.size(); ++b) {
+        EXPECT_LE(bundles[b].size(), DirectionBundles::kSize);
+        Box3f box;
+        for (const std::uint32_t j : bundles[b]) {
+            found.push_back(j);
+            box.extend(directions[j]);
+        }
+        // 334 directions on 2π steradians: 16 of them take 0.3 sr, a cap of 0.6 across; a box of four times that holds
+        // any shape the halving leaves.
+        EXPECT_LT(glm::length(box.size()), 2.4f);
+    }
+    std::sort(found.begin(), found.end());
+    EXPECT_EQ(found, chosen);
+    EXPECT_EQ(DirectionBundles(directions, {}).size(), 0u);
+}
+
+TEST(OccluderTree, JoinsFlatPairsOfOneFace) {
+    // A quad is one occluder; its halves bent against each other are two.
+    const auto quads_in = [](const Scene& scene) {
+        const OccluderTree tree(scene);
+        int count = 0;
+        for (const OccluderTree::Leaf& leaf : tree.leaves()) {
+            for (int lane = 0; lane < OccluderTree::kWidth; ++lane) count += !std::isnan(leaf.corner[0][0][lane]);
+        }
+        return count;
+    };
+    EXPECT_EQ(quads_in(QuadScene().quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}).scene()), 1);
+    EXPECT_EQ(quads_in(QuadScene().quad({0, 0, 0}, {1, 0, 0.1f}, {1, 1, 0}, {0, 1, 0.1f}).scene()), 2);
+    EXPECT_EQ(quads_in(QuadScene().quad({0, 0, 0}, {2, 0, 0}, {0.5f, 0.5f, 0}, {0, 2, 0}).scene()), 2) << "not convex";
 }
 
 }  // namespace

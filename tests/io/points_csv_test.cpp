@@ -81,9 +81,10 @@ TEST_F(PointsCsv, WritesTheContract) {
     const std::vector<ProbePoint> points = {{"a", {}, {}}, {"b, c", {}, {}}};
     const std::vector<ProbeLight> light = {{90000.0, 10000.5, 0.0, Rgb(100000.0f), 1.0, 0.25, 0.0}, {}};
     EXPECT_EQ(probe_csv(points, light),
-              "id,sun_lx,sky_lx,indirect_lx,total_lx,total_r,total_g,total_b,sun_visible,sky_view_factor,lamps_lx\n"
-              "a,90000,10000.5,0,100000,100000,100000,100000,1,0.25,0\n"
-              "\"b, c\",0,0,0,0,0,0,0,0,0,0\n");
+              "id,sun_lx,sky_lx,indirect_lx,total_lx,total_r,total_g,total_b,sun_visible,sky_view_factor,lamps_lx,"
+              "indirect_error_lx\n"
+              "a,90000,10000.5,0,100000,100000,100000,100000,1,0.25,0,0\n"
+              "\"b, c\",0,0,0,0,0,0,0,0,0,0,0\n");
     write_probe_csv(folder / "out.csv", points, light);
     const std::vector<std::uint8_t> bytes = read_file(folder / "out.csv");
     EXPECT_EQ(std::string(bytes.begin(), bytes.end()), probe_csv(points, light));

@@ -59,6 +59,28 @@ TEST_F(BakeVerb, WritesTheSameBytesForAnyNumberOfThreads) {
     }
 }
 
+/// Photons too: the files have the reflected light, and the same bytes for any number of threads.
+TEST_F(BakeVerb, WritesTheSamePhotonsForAnyNumberOfThreads) {
+    const auto with_photons = [&](const std::string& folder, const std::string& threads) {
+        std::vector<std::string> arguments = bake("a/town.city.json", folder, "2", threads);
+        arguments.insert(arguments.end(), {"--indirect", "photons", "--photons", "60000", "--seed", "3"});
+        return run(arguments);
+    };
+    ASSERT_EQ(with_photons("one", "1"), 0);
+    const auto one = bytes_of("one");
+    ASSERT_TRUE(one.contains("light/i0_p0_indirect.png"));
+    const auto manifest = nlohmann::json::parse(one.at("manifest.json"));
+    const auto& lumen = manifest.at("report").at("photon_lumen");
+    EXPECT_NEAR(
+        lumen.at("absorbed").get<double>() + lumen.at("escaped").get<double>() + lumen.at("at_limit").get<double>(),
+        lumen.at("emitted").get<double>(), 1e-6 * lumen.at("emitted").get<double>());
+    EXPECT_EQ(manifest.at("settings").at("photons"), "60000");
+    for (const char* threads : {"2", "7"}) {
+        ASSERT_EQ(with_photons(threads, threads), 0);
+        expect_equal(one, bytes_of(threads));
+    }
+}
+
 TEST_F(BakeVerb, WritesTheSameBytesForShuffledObjects) {
     using Json = nlohmann::ordered_json;
     Json city = Json::parse(text_of(place_ / "a/town.city.json"));

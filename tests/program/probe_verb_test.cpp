@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
@@ -59,8 +60,9 @@ class BoxCity {
     nlohmann::json objects_, vertices_ = nlohmann::json::array();
 };
 
-/// Skylight in lux at a point of the city under a uniform sky, as the CSV tells it.
-double sky_at(const BoxCity& city, std::array<double, 3> p, std::array<double, 3> n, int samples) {
+/// One column of the CSV for a point of the city under a uniform sky.
+std::map<std::string, double> probe(const BoxCity& city, std::array<double, 3> p, std::array<double, 3> n,
+                                    std::vector<std::string> options) {
     const TemporaryFolder place;
     std::ofstream(place / "c.city.json") << city.text();
     std::ofstream points(place / "p.csv");
@@ -68,19 +70,66 @@ double sky_at(const BoxCity& city, std::array<double, 3> p, std::array<double, 3
     points << "id,x,y,z,nx,ny,nz\na," << p[0] + BoxCity::kX << ',' << p[1] + BoxCity::kY << ',' << p[2] << ',' << n[0]
            << ',' << n[1] << ',' << n[2] << '\n';
     points.close();
-    Running program(place, {"probe", place.str("c.city.json"), "--points", place.str("p.csv"), "--sky",
-                            "uniform:luminance=1000", "--sun", "none", "--sky-samples", std::to_string(samples)});
+    std::vector<std::string> arguments{"probe", place.str("c.city.json"), "--points", place.str("p.csv"),
+                                       "--sky", "uniform:luminance=1000", "--sun",    "none"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    Running program(place, arguments);
     EXPECT_EQ(program.exit_code(), 0) << program.err();
     std::istringstream rows(program.out());
     std::string header, row;
     std::getline(rows, header);
     std::getline(rows, row);
     std::istringstream names(header), values(row);
-    for (std::string name, value; std::getline(names, name, ',') && std::getline(values, value, ',');) {
-        if (name == "sky_lx") return std::stod(value);
-    }
-    ADD_FAILURE() << "no sky_lx in: " << program.out();
-    return 0.0;
+    std::map<std::string, double> columns;
+    std::getline(names, header, ',');
+    std::getline(values, row, ',');
+    for (std::string name, value; std::getline(names, name, ',') && std::getline(values, value, ',');)
+        columns[name] = std::stod(value);
+    return columns;
+}
+
+/// Skylight in lux at a point of the city under a uniform sky, as the CSV tells it.
+double sky_at(const BoxCity& city, std::array<double, 3> p, std::array<double, 3> n, int samples) {
+    return probe(city, p, n, {"--sky-samples", std::to_string(samples)}).at("sky_lx");
+}
+
+/// Lamps by the inverse square law, and their light reflected once by open ground into nothing: all of it is direct.
+TEST(ProbeVerbLamps, FollowTheInverseSquare) {
+    const TemporaryFolder place;
+    const auto lamps = [&](double x, double y, const std::string& rest) {
+        return nlohmann::json::parse(R"({"id": "l)" + std::to_string(x) + R"(", "position": [)" +
+                                     std::to_string(x + BoxCity::kX) + "," + std::to_string(y + BoxCity::kY) + ",4]," +
+                                     rest + "}");
+    };
+    std::ofstream(place / "lamps.json") << nlohmann::json{
+        {"lamps",
+         {lamps(0, 0, R"("type": "point", "intensity_cd": 1000, "color_temperature_k": 3000)"),
+          lamps(3, 0,
+                R"("type": "spot", "flux_lm": 628.3185307, "direction": [0, 0, -1], "cone_half_angle_deg": 90)")}}};
+    const auto light = probe(BoxCity(50), {0, 0, 0}, {0, 0, 1}, {"--lamps", place.str("lamps.json")});
+    // The spot shines into half of all directions: 100 cd, at 5 m under the cosine 0.8.
+    EXPECT_NEAR(light.at("lamps_lx"), 1000.0 / 16.0 + 100.0 * 0.8 / 25.0, 0.02);
+    EXPECT_NEAR(light.at("total_lx"), light.at("sky_lx") + light.at("lamps_lx"), 0.02);
+    std::ofstream(place / "broken.json") << R"({"lamps": [{"id": "a", "type": "point", "position": [0, 0, 0]}]})";
+    std::ofstream(place / "c.city.json") << BoxCity(50).text();
+    std::ofstream(place / "p.csv") << "id,x,y,z,nx,ny,nz\n";
+    Running refused(place, {"probe", place.str("c.city.json"), "--points", place.str("p.csv"), "--sky",
+                            "uniform:luminance=1000", "--sun", "none", "--lamps", place.str("broken.json")});
+    EXPECT_EQ(refused.exit_code(), 2);
+    EXPECT_NE(refused.err().find("lamp 1: needs one of 'intensity_cd' and 'flux_lm'"), std::string::npos)
+        << refused.err();
+}
+
+/// A free wall before open ground of albedo 0.3 gets, from below, half of ρπL by one reflection.
+TEST(ProbeVerbIndirect, GroundLightsAWall) {
+    const auto light = probe(BoxCity(1500).box({-5, -5, 0}, {5, 5, 20}), {0, -5, 10}, {0, -1, 0},
+                             {"--indirect", "reference", "--bounces", "1", "--paths", "20000", "--albedo", "0.3"});
+    const double truth = 0.5 * 0.3 * kOpen;
+    // The box hides part of the sky from the ground before it: as much as a tenth at its foot, far less on the whole.
+    EXPECT_NEAR(light.at("indirect_lx"), truth, 4.0 * light.at("indirect_error_lx") + 0.1 * truth);
+    EXPECT_LT(light.at("indirect_lx"), truth);
+    EXPECT_GT(light.at("indirect_error_lx"), 0.0);
+    EXPECT_NEAR(light.at("total_lx"), light.at("sky_lx") + light.at("indirect_lx"), 1e-2);
 }
 
 struct SamplesAndBound {

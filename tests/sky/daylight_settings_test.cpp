@@ -49,15 +49,34 @@ TEST(ParseSky, ReadsEveryForm) {
     EXPECT_EQ(to_text(parse_sky("uniform:luminance=2000")), "uniform:luminance=2000,turbidity=3");
     EXPECT_EQ(to_text(parse_sky("none")), "none:turbidity=3");
     for (const char* text :
-         {"preetham:turbidity=4,level=dhi=50", "uniform:luminance=1.5,turbidity=2", "none:turbidity=2"}) {
+         {"preetham:turbidity=4,level=dhi=50", "uniform:luminance=1.5,turbidity=2", "none:turbidity=2",
+          "perez:dni=700,dhi=90.5,water=1.5", "cie:type=3", "cie:type=12,dhi=80,turbidity=2", "cie:type=7,zenith=4000",
+          "cie1994:turbid,dhi=70", "cie1994:intermediate,turbidity=3,level=gensky", "cie1994:overcast,zenith=5000",
+          "image:sky/a b.exr,sun=cut,rotate=-90,scale=179,turbidity=3",
+          "image:a.hdr,sun=keep,rotate=0,dhi=60,turbidity=3"}) {
         EXPECT_EQ(to_text(parse_sky(text)), text) << "what is written is what is read";
     }
 }
 
 TEST(ParseSky, SaysWhatIsWrong) {
     EXPECT_THAT(sky_refusal("prethan"), HasSubstr("did you mean 'preetham'?"));
-    EXPECT_THAT(sky_refusal("perez:dni=500,dhi=100"),
-                HasSubstr("this version has no perez sky yet. Available are preetham"));
+    EXPECT_THAT(sky_refusal("peres:dni=500"), HasSubstr("did you mean 'perez'? Available are preetham:turbidity=T"));
+    EXPECT_THAT(sky_refusal("perez:dni=500"), HasSubstr("dhi is missing. The Perez sky is made from a measured"));
+    EXPECT_THAT(sky_refusal("perez:dni=500,dhi=-1"), HasSubstr("dhi=-1 is not a number in 0…1500 W/m²"));
+    EXPECT_THAT(sky_refusal("perez:dni=500,dhi=1,turbidity=3"), HasSubstr("there is no key 'turbidity'; did you mean"));
+    EXPECT_THAT(sky_refusal("cie"), HasSubstr("type is missing. The CIE general sky has 15 types"));
+    EXPECT_THAT(sky_refusal("cie:type=16"), HasSubstr("type=16 is not a number in 1…15"));
+    EXPECT_THAT(sky_refusal("cie:type=2.5"), HasSubstr("type=2.5 is not a whole number in 1…15"));
+    EXPECT_THAT(sky_refusal("cie:type=12,dhi=1,zenith=2"), HasSubstr("dhi and zenith exclude each other"));
+    EXPECT_THAT(sky_refusal("cie:type=1,turbidity=3"), HasSubstr("hides the sun and has no blue"));
+    EXPECT_THAT(sky_refusal("cie:tipe=1"), HasSubstr("there is no key 'tipe'; did you mean 'type'?"));
+    EXPECT_THAT(sky_refusal("cie:type=1,dhy=4"), HasSubstr("there is no key 'dhy'; did you mean 'dhi'?"));
+    EXPECT_THAT(sky_refusal("cie1994"), HasSubstr("which one? It is cie1994:clear, turbid, intermediate or overcast"));
+    EXPECT_THAT(sky_refusal("cie1994:cleer"), HasSubstr("did you mean 'clear'? Known skies: clear, turbid"));
+    EXPECT_THAT(sky_refusal("cie1994:clear,level=gensky,dhi=1"), HasSubstr("level excludes dhi and zenith"));
+    EXPECT_THAT(sky_refusal("image"), HasSubstr("the file is missing. It is image:FILE"));
+    EXPECT_THAT(sky_refusal("image:a.exr,sun=out"), HasSubstr("sun=out is neither keep nor cut"));
+    EXPECT_THAT(sky_refusal("image:a.exr,scale=1,dhi=3"), HasSubstr("scale and dhi exclude each other"));
     EXPECT_THAT(sky_refusal("preetham:turbidty=3"), HasSubstr("there is no key 'turbidty'; did you mean 'turbidity'?"));
     EXPECT_THAT(sky_refusal("preetham:turbidity=0.5"), HasSubstr("turbidity=0.5 is not a number in 1…60"));
     EXPECT_THAT(sky_refusal("preetham:turbidity=nan"), HasSubstr("is not a number"));
@@ -125,6 +144,117 @@ TEST(MakeDaylights, LevelsOfThePreethamSky) {
         luminance(horizontal_diffuse(only(with_sun("preetham:level=published", 40.0), findings).sky).illuminance);
     EXPECT_GT(published, lux);
     EXPECT_EQ(findings.count("SB603"), 1u);
+}
+
+constexpr const char* kEveryModel[] = {"perez:dni=800,dhi=90",
+                                       "perez:dni=300,dhi=250",
+                                       "perez:dni=0,dhi=150",
+                                       "cie:type=1",
+                                       "cie:type=2",
+                                       "cie:type=3",
+                                       "cie:type=4",
+                                       "cie:type=5",
+                                       "cie:type=6",
+                                       "cie:type=7",
+                                       "cie:type=8",
+                                       "cie:type=9",
+                                       "cie:type=10",
+                                       "cie:type=11",
+                                       "cie:type=12",
+                                       "cie:type=13",
+                                       "cie:type=14",
+                                       "cie:type=15",
+                                       "cie1994:clear",
+                                       "cie1994:turbid",
+                                       "cie1994:intermediate",
+                                       "cie1994:overcast",
+                                       "cie1994:clear,level=gensky",
+                                       "cie1994:intermediate,level=gensky"};
+
+// Truth: by definition of dhi=, zenith= and Perez's own numbers.
+TEST(MakeDaylights, LevelsAreThoseAskedFor) {
+    FindingLog findings;
+    for (const char* sky : {"perez:dni=500,dhi=77", "cie:type=1,dhi=77", "cie:type=8,dhi=77", "cie:type=13,dhi=77",
+                            "cie1994:clear,dhi=77", "cie1994:intermediate,dhi=77", "cie1994:overcast,dhi=77"}) {
+        EXPECT_NEAR(horizontal_diffuse(only(with_sun(sky, 40.0), findings).sky).irradiance_w_m2, 77.0, 0.02) << sky;
+    }
+    for (const char* sky : {"cie:type=4,zenith=3000", "cie:type=15,zenith=3000", "cie1994:turbid,zenith=3000"})
+        EXPECT_NEAR(sky_xyz(only(with_sun(sky, 40.0), findings).sky, {0.0, 0.0, 1.0}).y, 3000.0, 1e-6) << sky;
+    const Daylight perez = only(with_sun("perez:dni=500,dhi=77", 40.0), findings);
+    EXPECT_EQ(perez.sun.dni_w_m2, 500.0f);
+    EXPECT_NEAR(luminance(perez.sun.normal_illuminance) / 500.0, 104.0, 4.0) << "lm/W of a beam, Perez 1990";
+    EXPECT_TRUE(findings.empty());
+}
+
+// Truth: Krochmann & Seidl 1974 for the overcast sky; a clear sky's level is that of the Preetham sky of its
+// turbidity, so that a change of model does not change the light of a clear day.
+TEST(MakeDaylights, DefaultLevelsOfTheCieSkies) {
+    FindingLog findings;
+    const auto lux = [&](const char* sky) {
+        return luminance(horizontal_diffuse(only(with_sun(sky, 30.0), findings).sky).illuminance);
+    };
+    for (const char* sky : {"cie:type=1", "cie:type=4", "cie1994:overcast"}) EXPECT_NEAR(lux(sky), 10800.0, 5.0) << sky;
+    EXPECT_NEAR(lux("cie:type=12"), lux("preetham:turbidity=2.5"), 10.0);
+    EXPECT_NEAR(lux("cie1994:clear,turbidity=4"), lux("preetham:turbidity=4"), 10.0);
+    EXPECT_NEAR(lux("cie:type=7"), 0.4 * 133100.0 * 0.5, 10.0);
+    EXPECT_EQ(only(with_sun("cie:type=3", 30.0), findings).sun.dni_w_m2, 0.0f) << "overcast skies hide the sun";
+    EXPECT_GT(only(with_sun("cie:type=12", 30.0), findings).sun.dni_w_m2, 700.0f);
+}
+
+// Truth: the contract of Daylight, for every model and sun, also below the horizon.
+TEST(MakeDaylights, EveryModelIsFiniteAndNeverNegative) {
+    for (const char* sky : kEveryModel) {
+        for (double elevation = -30.0; elevation <= 90.0;
+             elevation += elevation > -1.0 && elevation < 1.0 ? 0.25 : 7.25) {
+            FindingLog findings;
+            const Daylight light = only(with_sun(sky, elevation), findings);
+            ASSERT_TRUE(std::isfinite(light.sun.dni_w_m2) && light.sun.dni_w_m2 >= 0.0f) << sky << ' ' << elevation;
+            EXPECT_TRUE(elevation > 0.0 || light.sun.normal_illuminance == Rgb(0.0f)) << sky << ' ' << elevation;
+            for (int c = 0; c < 3; ++c) {
+                ASSERT_TRUE(light.sun.normal_illuminance[c] >= 0.0f && light.sun.normal_illuminance[c] < 2e5f)
+                    << sky << ' ' << elevation;
+            }
+            for (int i = 0; i < 200; ++i) {
+                const double z = (i + 0.5) / 200.0, azimuth = 2.4 * i, r = std::sqrt(1.0 - z * z);
+                const Rgb rgb = sky_luminance(light.sky, Vec3f(Vec3d(r * std::sin(azimuth), r * std::cos(azimuth), z)));
+                ASSERT_TRUE(rgb.x >= 0.0f && rgb.y >= 0.0f && rgb.z >= 0.0f && luminance(rgb) < 1e7f)
+                    << sky << ' ' << elevation << ' ' << rgb.x << ' ' << rgb.y << ' ' << rgb.z;
+            }
+        }
+    }
+}
+
+// Truth: the model's own words: an ε beyond 12, a Δ beyond 0.6, more beam than there is sun.
+TEST(MakeDaylights, FindsWeatherThatPerezDoesNotKnow) {
+    for (const auto& [sky, count] : {std::pair{"perez:dni=800,dhi=90", 0u},
+                                     {"perez:dni=1450,dhi=200", 1u},
+                                     {"perez:dni=900,dhi=20", 1u},
+                                     {"perez:dni=0,dhi=900", 1u},
+                                     {"perez:dni=1450,dhi=5", 3u}}) {
+        FindingLog findings;
+        only(with_sun(sky, 40.0), findings);
+        EXPECT_EQ(findings.count("SB605"), count) << sky;
+    }
+    FindingLog findings;
+    const Daylight dark = only(with_sun("perez:dni=0,dhi=0", 40.0), findings);
+    EXPECT_EQ(findings.count("SB604"), 1u);
+    EXPECT_EQ(luminance(sky_luminance(dark.sky, Vec3f(0.0f, 0.6f, 0.8f))), 0.0f);
+    EXPECT_EQ(only(with_sun("perez:dni=300,dhi=50", -2.0), findings).sun.dni_w_m2, 0.0f);
+    EXPECT_EQ(findings.count("SB602"), 1u);
+}
+
+// Truth: a sky that is round about the zenith, at a given level, needs no sun; the others ask for one.
+TEST(MakeDaylights, OnlyRoundSkiesOfAKnownLevelNeedNoSun) {
+    DaylightSettings settings;
+    FindingLog findings;
+    for (const char* sky : {"cie:type=1,dhi=50", "cie:type=5,zenith=1000", "cie1994:overcast,dhi=50"}) {
+        settings.sky = parse_sky(sky);
+        EXPECT_GT(luminance(sky_luminance(only(settings, findings).sky, Vec3f(0.0f, 0.6f, 0.8f))), 0.0f) << sky;
+    }
+    for (const char* sky : {"cie:type=1", "cie:type=2,dhi=50", "cie1994:clear,dhi=50", "perez:dni=1,dhi=50"}) {
+        settings.sky = parse_sky(sky);
+        EXPECT_THAT(refusal([&] { only(settings, findings); }), HasSubstr("needs to know where the sun is")) << sky;
+    }
 }
 
 // Truth: continuity. A sun that rises by a quarter of a degree changes the sky by a little, without the jumps of

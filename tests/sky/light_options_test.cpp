@@ -20,12 +20,6 @@ std::string refusal(const Action& action) {
     return "accepted";
 }
 
-LightOptions with_sun() {
-    LightOptions options;
-    options.sun_direction = "180,45";
-    return options;
-}
-
 // Truth: the form that the command line promises.
 TEST(ParseAlbedo, ReadsOneOrThreeValuesForEachKind) {
     using Albedos = std::vector<std::pair<std::string, Rgb>>;
@@ -44,15 +38,6 @@ TEST(ParseAlbedo, Refuses) {
     EXPECT_THAT(refusal([] { parse_albedo("rof=0.3"); }), HasSubstr("did you mean 'roof'"));
     EXPECT_THAT(refusal([] { parse_albedo("roof=0.3,0.2"); }), HasSubstr("'roof' has 2 values"));
     EXPECT_THAT(refusal([] { parse_albedo("roof=0.3,roof=0.2"); }), HasSubstr("'roof' is given twice"));
-}
-
-TEST(LightOptions, BounceMethodsOfLaterVersionsAreRefused) {
-    LightOptions options = with_sun();
-    EXPECT_EQ(refusal([&] { check_light_options(options); }), "accepted");
-    options.indirect = "photons";
-    EXPECT_THAT(refusal([&] { check_light_options(options); }), HasSubstr("this version computes direct light only"));
-    options.indirect = "photos";
-    EXPECT_THAT(refusal([&] { check_light_options(options); }), HasSubstr("did you mean 'photons'?"));
 }
 
 // Truth: what is wrong by itself is found before a city is read; that the CRS gives no site is found after.

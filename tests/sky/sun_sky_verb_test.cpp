@@ -116,8 +116,44 @@ TEST_F(SunSkyVerb, SkyWritesPanoramasAndSums) {
     EXPECT_EQ(run("sky --sun-direction 90,30 --width 64 -o " + path("sky.exr")).exit_code, 0);
     EXPECT_GT(std::filesystem::file_size(path("sky.png")), 200u);
     EXPECT_GT(std::filesystem::file_size(path("sky.exr")), 200u);
+    EXPECT_EQ(run("sky --sun-direction 90,30 --width 64 --projection fisheye -o " + path("dome.png")).exit_code, 0);
+    EXPECT_THAT(run("sky --sun-direction 90,30 --projection fish -o " + path("dome.png")).err,
+                HasSubstr("did you mean 'fisheye'?"));
     const auto sums = nlohmann::json::parse(run("sky --sky uniform:luminance=1000 --json").out);
     EXPECT_NEAR(sums["diffuse_horizontal_lx"].get<double>(), 1000.0 * std::acos(-1.0), 0.1);
+}
+
+// Truth: the contract's forms of --sky; a panorama that was written is read as the sky it shows.
+TEST_F(SunSkyVerb, EveryModelAnswersAndAPanoramaIsASky) {
+    for (const char* sky : {"preetham:turbidity=2", "perez:dni=600,dhi=120", "cie:type=7", "cie:type=1,dhi=90",
+                            "cie1994:clear", "cie1994:turbid", "cie1994:intermediate", "cie1994:overcast,dhi=120"}) {
+        const Outcome outcome = run(std::string("sky --sun-direction 200,35 --json --sky ") + sky);
+        ASSERT_EQ(outcome.exit_code, 0) << sky << outcome.err;
+        const auto sums = nlohmann::json::parse(outcome.out);
+        EXPECT_GT(sums["diffuse_horizontal_lx"].get<double>(), 5000.0) << sky;
+        EXPECT_LT(sums["diffuse_horizontal_lx"].get<double>(), 40000.0) << sky;
+    }
+    ASSERT_EQ(run("sky --sun-direction 200,35 --sky perez:dni=600,dhi=120 --width 512 -o " + path("p.exr")).exit_code,
+              0);
+    const Outcome image = run("sky --json --sky image:" + path("p.exr"));
+    ASSERT_EQ(image.exit_code, 0) << image.err;
+    const auto perez = nlohmann::json::parse(run("sky --sun-direction 200,35 --sky perez:dni=600,dhi=120 --json").out);
+    const double expected = perez["diffuse_horizontal_lx"].get<double>();
+    EXPECT_NEAR(nlohmann::json::parse(image.out)["diffuse_horizontal_lx"].get<double>(), expected, 2e-3 * expected);
+    const Outcome absent = run("sky --sky image:" + path("absent.hdr"));
+    EXPECT_EQ(absent.exit_code, 2);
+    EXPECT_THAT(absent.err, HasSubstr("absent.hdr: there is no such file"));
+}
+
+TEST_F(SunSkyVerb, ADayIsAStrip) {
+    const std::string day = "sky --site 47,15 --at 2026-06-21T06:00Z/2026-06-21T18:00Z/6h ";
+    const Outcome strip = run(day + "--width 32 -o " + path("day.png"));
+    ASSERT_EQ(strip.exit_code, 0) << strip.err;
+    EXPECT_THAT(strip.err, HasSubstr("32 x 24, 3 skies from top to bottom"));
+    EXPECT_THAT(run(day + "--width 32 --projection fisheye -o " + path("day.exr")).err, HasSubstr("96 x 32, 3 skies"));
+    EXPECT_EQ(nlohmann::json::parse(run(day + "--json").out)["instants"].size(), 3u);
+    std::ofstream(path("d.csv")) << "azimuth_deg,elevation_deg\n10,20\n";
+    EXPECT_THAT(run(day + "--directions " + path("d.csv")).err, HasSubstr("--directions answers for one"));
 }
 
 }  // namespace

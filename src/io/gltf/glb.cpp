@@ -32,10 +32,6 @@ constexpr int kRepeat = 10497;
 constexpr int kMirroredRepeat = 33648;
 constexpr int kClampToEdge = 33071;
 
-// Of a surface whose texture cannot be shown: a middling grey, since its own factor of 1 is meant to multiply the
-// picture.
-constexpr float kAlbedoWithoutTexture = 0.5f;
-
 /// The y-up frame of glTF.
 Vec3f y_up(const Vec3f& v) {
     return {v.x, v.z, -v.y};

@@ -27,6 +27,12 @@ inline std::string sky(std::size_t instant, std::size_t page) {
 inline std::string sun(std::size_t instant, std::size_t page) {
     return fmt::format("light/i{}_p{}_sun.png", instant, page);
 }
+inline std::string indirect(std::size_t instant, std::size_t page) {
+    return fmt::format("light/i{}_p{}_indirect.png", instant, page);
+}
+inline std::string indirect_scales(std::size_t instant) {
+    return fmt::format("light/i{}_indirect_scales.bin", instant);
+}
 inline std::string scales(std::size_t instant) {
     return fmt::format("light/i{}_scales.bin", instant);
 }

@@ -54,6 +54,19 @@ Image8 empty_picture(const LightmapPage& page, int channels) {
             std::vector<std::uint8_t>(page.state.size() * static_cast<std::size_t>(channels))};
 }
 
+/// Light over the chart's scale, which `scale_klx` tells for a chart's number.
+template <typename Scale>
+Image8 light_picture(const LightmapPage& page, const std::vector<Rgb>& light, const Scale& scale_klx) {
+    static const SrgbEncoder encode;
+    Image8 image = empty_picture(page, 3);
+    for (std::size_t t = 0; t < light.size(); ++t) {
+        if (page.state[t] == TexelState::empty) continue;
+        const float factor = 1e-3f * inverse_or_zero(scale_klx(page.chart[t].index()));
+        for (int c = 0; c < 3; ++c) image.pixels[3 * t + static_cast<std::size_t>(c)] = encode(factor * light[t][c]);
+    }
+    return image;
+}
+
 }  // namespace
 
 std::vector<ChartScale> chart_scales(const Lightmaps& light, std::size_t instant, std::size_t chart_count) {
@@ -72,18 +85,30 @@ std::vector<ChartScale> chart_scales(const Lightmaps& light, std::size_t instant
     return scales;
 }
 
+std::vector<float> indirect_scales_klx(const Lightmaps& light, std::size_t instant, std::size_t chart_count) {
+    std::vector<float> scales(chart_count, 0.0f);
+    for (std::size_t p = 0; p < light.pages.size(); ++p) {
+        const LightmapPage& page = light.pages[p];
+        const std::vector<Rgb>& indirect = light.instants[instant].pages[p].indirect;
+        for (std::size_t t = 0; t < page.state.size(); ++t) {
+            if (page.state[t] == TexelState::empty) continue;
+            float& scale = scales[page.chart[t].index()];
+            scale = std::max(scale, 1e-3f * std::max({indirect[t].x, indirect[t].y, indirect[t].z}));
+        }
+    }
+    return scales;
+}
+
 Image8 sky_picture(const Lightmaps& light, std::size_t instant, std::size_t page,
                    const std::vector<ChartScale>& scales) {
-    static const SrgbEncoder encode;
-    const LightmapPage& base = light.pages[page];
-    const std::vector<Rgb>& sky = light.instants[instant].pages[page].sky;
-    Image8 image = empty_picture(base, 3);
-    for (std::size_t t = 0; t < sky.size(); ++t) {
-        if (base.state[t] == TexelState::empty) continue;
-        const float factor = 1e-3f * inverse_or_zero(scales[base.chart[t].index()].sky_klx);
-        for (int c = 0; c < 3; ++c) image.pixels[3 * t + static_cast<std::size_t>(c)] = encode(factor * sky[t][c]);
-    }
-    return image;
+    return light_picture(light.pages[page], light.instants[instant].pages[page].sky,
+                         [&](std::size_t chart) { return scales[chart].sky_klx; });
+}
+
+Image8 indirect_picture(const Lightmaps& light, std::size_t instant, std::size_t page,
+                        const std::vector<float>& scales_klx) {
+    return light_picture(light.pages[page], light.instants[instant].pages[page].indirect,
+                         [&](std::size_t chart) { return scales_klx[chart]; });
 }
 
 Image8 sun_picture(const Lightmaps& light, std::size_t instant, std::size_t page,

@@ -24,6 +24,13 @@ std::vector<ChartScale> chart_scales(const Lightmaps& light, std::size_t instant
 Image8 sky_picture(const Lightmaps& light, std::size_t instant, std::size_t page,
                    const std::vector<ChartScale>& scales);
 
+/// One a chart: the illuminance per channel where the indirect picture is 1, klx. Of bakes with reflected light.
+std::vector<float> indirect_scales_klx(const Lightmaps& light, std::size_t instant, std::size_t chart_count);
+
+/// Reflected light over the chart's scale, sRGB-encoded RGB; black where no chart is.
+Image8 indirect_picture(const Lightmaps& light, std::size_t instant, std::size_t page,
+                        const std::vector<float>& scales_klx);
+
 /// Sun cosine over the chart's scale, linear grey.
 Image8 sun_picture(const Lightmaps& light, std::size_t instant, std::size_t page,
                    const std::vector<ChartScale>& scales);

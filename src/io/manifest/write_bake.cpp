@@ -53,10 +53,17 @@ void write_base(const std::filesystem::path& path, const LightmapPage& page) {
               {{"skybake.state", "0 empty, 1 chart, 2 buried, 3 gutter"}});
 }
 
+/// Reflected light was asked for.
+bool has_indirect(const Lightmaps& light) {
+    return !light.instants.empty() && !light.instants[0].pages.empty() && !light.instants[0].pages[0].indirect.empty();
+}
+
 void write_light(const std::filesystem::path& path, const Lightmaps& light, std::size_t instant, std::size_t page) {
     std::vector<ExrChannel> channels;
-    for (const char* layer : {"", "sun.", "sky."}) {
-        for (const char* color : {"R", "G", "B"}) channels.push_back({std::string(layer) + color, ExrType::float32});
+    std::vector<std::string> layers{"", "sun.", "sky."};
+    if (has_indirect(light)) layers.emplace_back("indirect.");
+    for (const std::string& layer : layers) {
+        for (const char* color : {"R", "G", "B"}) channels.push_back({layer + color, ExrType::float32});
     }
     const std::size_t width = static_cast<std::size_t>(light.pages[page].width);
     const LightmapLayer& layer = light.instants[instant].pages[page];
@@ -73,6 +80,8 @@ void write_light(const std::filesystem::path& path, const Lightmaps& light, std:
                           samples[at] = std::bit_cast<std::uint32_t>(total[c]);
                           samples[3 * width + at] = std::bit_cast<std::uint32_t>(sun[c]);
                           samples[6 * width + at] = std::bit_cast<std::uint32_t>(sky[c]);
+                          if (!layer.indirect.empty())
+                              samples[9 * width + at] = std::bit_cast<std::uint32_t>(layer.indirect[first + x][c]);
                       }
                   }
               },
@@ -115,7 +124,8 @@ void clear_old_bake(const std::filesystem::path& folder) {
     for (const char* name : {names::kManifest, names::kCity}) remove(folder / (std::string(name) + ".part"));
     remove(folder / names::kCity);
     static const std::regex ours(
-        "(p[0-9]+_(base\\.exr|svf\\.png)|i[0-9]+_(p[0-9]+(\\.exr|_sky\\.png|_sun\\.png)|scales\\.bin|sky\\.bin))(\\."
+        "(p[0-9]+_(base\\.exr|svf\\.png)|i[0-9]+_(p[0-9]+(\\.exr|_sky\\.png|_sun\\.png|_indirect\\.png)|scales\\.bin|"
+        "indirect_scales\\.bin|sky\\.bin))(\\."
         "part)?");
     std::vector<std::filesystem::path> old;
     for (const std::filesystem::directory_entry& entry :
@@ -163,15 +173,25 @@ Json sun_json(const SunBeam& sun) {
 
 /// The figures that come out the same whenever the bake is repeated.
 Json report_json(const BakeReport& r) {
-    return {{"buildings", r.buildings},
-            {"triangles", r.triangles},
-            {"charts", r.charts},
-            {"pages", r.pages},
-            {"texels", r.texels},
-            {"texel_m", r.texel_m},
-            {"rays", {{"sun", r.rays.sun}, {"sky", r.rays.sky}, {"photon", r.rays.photon}, {"feeler", r.rays.feeler}}},
-            {"evaluated_fraction", r.evaluated_fraction},
-            {"predicted_rmse_over_mean", r.predicted_rmse_over_mean}};
+    Json json = {
+        {"buildings", r.buildings},
+        {"triangles", r.triangles},
+        {"charts", r.charts},
+        {"pages", r.pages},
+        {"texels", r.texels},
+        {"texel_m", r.texel_m},
+        {"rays", {{"sun", r.rays.sun}, {"sky", r.rays.sky}, {"photon", r.rays.photon}, {"feeler", r.rays.feeler}}},
+        {"evaluated_fraction", r.evaluated_fraction},
+        {"predicted_rmse_over_mean", r.predicted_rmse_over_mean}};
+    if (r.photons.emitted > 0.0) {
+        json["indirect_evaluated_fraction"] = r.indirect_evaluated_fraction;
+        json["photons_stored"] = r.photons.stored;
+        json["photon_lumen"] = {{"emitted", r.photons.emitted},
+                                {"absorbed", r.photons.absorbed},
+                                {"escaped", r.photons.escaped},
+                                {"at_limit", r.photons.at_limit}};
+    }
+    return json;
 }
 
 Json findings_json(const FindingLog& findings) {
@@ -194,6 +214,9 @@ Json instant_json(const BakeOutput& output, std::size_t instant, double exposure
         pages.push_back(
             {{"exr", names::light(instant, p)}, {"sky", names::sky(instant, p)}, {"sun", names::sun(instant, p)}});
     }
+    if (has_indirect(output.light)) {
+        for (std::size_t p = 0; p < pages.size(); ++p) pages[p]["indirect"] = names::indirect(instant, p);
+    }
     Json json = {{"label", output.light.instants[instant].daylight.label}};
     if (description.utc) json["utc"] = *description.utc;
     json["sun"] = sun_json(output.light.instants[instant].daylight.sun);
@@ -205,6 +228,7 @@ Json instant_json(const BakeOutput& output, std::size_t instant, double exposure
                      {"format", "rgba16f"},
                      {"unit", "kcd/m2"}}}};
     json["scales"] = {{"uri", names::scales(instant)}};
+    if (has_indirect(output.light)) json["indirect_scales"] = {{"uri", names::indirect_scales(instant)}};
     json["exposure_hint"] = exposure;
     json["pages"] = pages;
     return json;
@@ -325,18 +349,27 @@ WrittenBake write_bake(const std::filesystem::path& folder, const BakeOutput& ou
     for (std::size_t i = 0; i < instant_count; ++i) {
         files.push_back(names::scales(i));
         files.push_back(names::panorama(i));
-        jobs.push_back({1 + page_count, [&, i] {
-                            exposures[i] = exposure_hint(light, i);
-                            const std::vector<ChartScale> scales = chart_scales(light, i, output.atlas.charts.size());
-                            write_file(folder / names::scales(i), scale_bytes(scales));
-                            write_file(folder / names::panorama(i),
-                                       panorama_bytes(description.instants[i].sky_panorama));
-                            tbb::parallel_for(std::size_t{0}, 2 * page_count, [&](std::size_t k) {
-                                const std::size_t p = k / 2;
-                                if (k % 2 == 0) write_png(folder / names::sky(i, p), sky_picture(light, i, p, scales));
-                                if (k % 2 == 1) write_png(folder / names::sun(i, p), sun_picture(light, i, p, scales));
-                            });
-                        }});
+        if (has_indirect(light)) files.push_back(names::indirect_scales(i));
+        jobs.push_back(
+            {1 + page_count, [&, i] {
+                 exposures[i] = exposure_hint(light, i);
+                 const std::vector<ChartScale> scales = chart_scales(light, i, output.atlas.charts.size());
+                 write_file(folder / names::scales(i), scale_bytes(scales));
+                 write_file(folder / names::panorama(i), panorama_bytes(description.instants[i].sky_panorama));
+                 std::vector<float> indirect_scales;
+                 if (has_indirect(light)) {
+                     indirect_scales = indirect_scales_klx(light, i, output.atlas.charts.size());
+                     write_file(folder / names::indirect_scales(i), bytes_of(indirect_scales));
+                 }
+                 const std::size_t kinds = has_indirect(light) ? 3 : 2;
+                 tbb::parallel_for(std::size_t{0}, kinds * page_count, [&](std::size_t k) {
+                     const std::size_t p = k / kinds;
+                     if (k % kinds == 0) write_png(folder / names::sky(i, p), sky_picture(light, i, p, scales));
+                     if (k % kinds == 1) write_png(folder / names::sun(i, p), sun_picture(light, i, p, scales));
+                     if (k % kinds == 2)
+                         write_png(folder / names::indirect(i, p), indirect_picture(light, i, p, indirect_scales));
+                 });
+             }});
     }
     for (std::size_t p = 0; p < page_count; ++p) {
         files.push_back(names::base(p));
@@ -344,6 +377,7 @@ WrittenBake write_bake(const std::filesystem::path& folder, const BakeOutput& ou
         jobs.push_back({1, [&, p] { write_base(folder / names::base(p), light.pages[p]); }});
         for (std::size_t i = 0; i < instant_count; ++i) {
             files.insert(files.end(), {names::light(i, p), names::sky(i, p), names::sun(i, p)});
+            if (has_indirect(light)) files.push_back(names::indirect(i, p));
             jobs.push_back({4, [&, i, p] { write_light(folder / names::light(i, p), light, i, p); }});
         }
     }

@@ -150,13 +150,14 @@ std::vector<ProbePoint> read_points(const std::filesystem::path& path) {
 std::string probe_csv(std::span<const ProbePoint> points, std::span<const ProbeLight> light) {
     SKYBAKE_CHECK_EQ(points.size(), light.size());
     std::string csv =
-        "id,sun_lx,sky_lx,indirect_lx,total_lx,total_r,total_g,total_b,sun_visible,sky_view_factor,lamps_lx\n";
+        "id,sun_lx,sky_lx,indirect_lx,total_lx,total_r,total_g,total_b,sun_visible,sky_view_factor,lamps_lx,"
+        "indirect_error_lx\n";
     for (std::size_t i = 0; i < points.size(); ++i) {
         const ProbeLight& l = light[i];
         const auto f = [](double value) { return static_cast<float>(value); };
-        fmt::format_to(std::back_inserter(csv), "{},{},{},{},{},{},{},{},{},{},{}\n", quoted_if_needed(points[i].id),
+        fmt::format_to(std::back_inserter(csv), "{},{},{},{},{},{},{},{},{},{},{},{}\n", quoted_if_needed(points[i].id),
                        f(l.sun_lx), f(l.sky_lx), f(l.indirect_lx), luminance(l.total), l.total.x, l.total.y, l.total.z,
-                       f(l.sun_visible), f(l.sky_view_factor), f(l.lamps_lx));
+                       f(l.sun_visible), f(l.sky_view_factor), f(l.lamps_lx), f(l.indirect_error_lx));
     }
     return csv;
 }

@@ -23,10 +23,11 @@ struct ProbeLight {
     double sun_lx = 0.0;
     double sky_lx = 0.0;
     double indirect_lx = 0.0;
-    Rgb total{0.0f};               // lx per channel, linear Rec. 709
-    double sun_visible = 0.0;      // 0…1
-    double sky_view_factor = 0.0;  // 0…1
-    double lamps_lx = 0.0;         // direct light of lamps
+    Rgb total{0.0f};                 // lx per channel, linear Rec. 709
+    double sun_visible = 0.0;        // 0…1
+    double sky_view_factor = 0.0;    // 0…1
+    double lamps_lx = 0.0;           // direct light of lamps
+    double indirect_error_lx = 0.0;  // standard error of indirect_lx, where it is an estimate
 };
 
 /// Reads `id,x,y,z,nx,ny,nz` below a header line that names these columns first; columns after them are ignored. Fields
@@ -35,9 +36,9 @@ struct ProbeLight {
 /// length.
 std::vector<ProbePoint> read_points(const std::filesystem::path& path);
 
-/// `id,sun_lx,sky_lx,indirect_lx,total_lx,total_r,total_g,total_b,sun_visible,sky_view_factor,lamps_lx`, a line a
-/// point; numbers with the fewest digits that read back as the same float. total_lx is the luminance of `total`.
-/// `points` and `light` have the same length.
+/// `id,sun_lx,sky_lx,indirect_lx,total_lx,total_r,total_g,total_b,sun_visible,sky_view_factor,lamps_lx,indirect_error_lx`,
+/// a line a point; numbers with the fewest digits that read back as the same float. total_lx is the luminance of
+/// `total`. `points` and `light` have the same length.
 std::string probe_csv(std::span<const ProbePoint> points, std::span<const ProbeLight> light);
 
 /// The same text as a file, beside and renamed.

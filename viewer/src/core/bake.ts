@@ -11,8 +11,10 @@ export type BakedInstant = Manifest['instants'][number];
 export interface InstantLight {
   /** Two a chart: scale of the sky's page (klx), scale of the sun's page (cosine). */
   scales: Float32Array<ArrayBuffer>;
+  /** One a chart: scale of the page of reflected light (klx); null in a bake without it. */
+  indirectScales: Float32Array<ArrayBuffer> | null;
   panorama: Panorama;
-  pages: { sky: EncodedPage; sun: EncodedPage }[];
+  pages: { sky: EncodedPage; sun: EncodedPage; indirect: EncodedPage | null }[];
 }
 
 export interface EncodedPage {
@@ -77,6 +79,8 @@ export class Bake {
   bytesOfInstant(index: number): number | null {
     const instant = this.instant(index);
     const uris = [instant.scales.uri, instant.sky.panorama.uri, ...instant.pages.flatMap((page) => [page.sky, page.sun])];
+    if (instant.indirect_scales) uris.push(instant.indirect_scales.uri);
+    for (const page of instant.pages) if (page.indirect) uris.push(page.indirect);
     let sum = 0;
     for (const uri of uris) {
       const bytes = this.bytesOf(uri);
@@ -97,27 +101,30 @@ export class Bake {
       const { width, height } = this.manifest.pages[pageIndex] ?? { width: 0, height: 0 };
       return { url: this.url(uri), bytes: await this.fetch(uri, onBytes, signal), width, height };
     };
-    const [scales, panorama, pages] = await Promise.all([
-      this.fetch(instant.scales.uri, onBytes, signal).then((bytes) => parseScales(this.url(instant.scales.uri), bytes, chartCount)),
+    const scalesOf = (uri: string, count: number): Promise<Float32Array<ArrayBuffer>> =>
+      this.fetch(uri, onBytes, signal).then((bytes) => parseScales(this.url(uri), bytes, count));
+    const [scales, indirectScales, panorama, pages] = await Promise.all([
+      scalesOf(instant.scales.uri, 2 * chartCount),
+      instant.indirect_scales ? scalesOf(instant.indirect_scales.uri, chartCount) : null,
       this.fetch(instant.sky.panorama.uri, onBytes, signal).then((bytes) =>
         Panorama.fromBytes(this.url(instant.sky.panorama.uri), bytes, instant.sky.panorama.width, instant.sky.panorama.height),
       ),
       Promise.all(
         instant.pages.map(async (files, p) => {
-          const [sky, sun] = await Promise.all([page(files.sky, p), page(files.sun, p)]);
-          return { sky, sun };
+          const [sky, sun, indirect] = await Promise.all([page(files.sky, p), page(files.sun, p), files.indirect ? page(files.indirect, p) : null]);
+          return { sky, sun, indirect };
         }),
       ),
     ]);
-    return { scales, panorama, pages };
+    return { scales, indirectScales, panorama, pages };
   }
 }
 
-/** Little-endian float32, two a chart. */
-export function parseScales(url: string, bytes: Uint8Array<ArrayBuffer>, chartCount: number): Float32Array<ArrayBuffer> {
-  if (bytes.byteLength !== chartCount * 8) throw new LoadError(url, text.error.size(bytes.byteLength, chartCount * 8));
+/** `count` little-endian float32. */
+export function parseScales(url: string, bytes: Uint8Array<ArrayBuffer>, count: number): Float32Array<ArrayBuffer> {
+  if (bytes.byteLength !== count * 4) throw new LoadError(url, text.error.size(bytes.byteLength, count * 4));
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
-  const scales = new Float32Array(chartCount * 2);
+  const scales = new Float32Array(count);
   for (let i = 0; i < scales.length; ++i) scales[i] = view.getFloat32(4 * i, true);
   return scales;
 }

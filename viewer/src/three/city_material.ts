@@ -15,10 +15,11 @@ export interface SharedUniforms {
   uPicture: THREE.IUniform<number>;
 }
 
-/** The two lightmap textures of one page, shared by the materials that lie in it. */
+/** The lightmap textures of one page, shared by the materials that lie in it. */
 export interface PageUniforms {
   uSkyPage: THREE.IUniform<THREE.Texture | null>;
   uSunPage: THREE.IUniform<THREE.Texture | null>;
+  uIndirectPage: THREE.IUniform<THREE.Texture | null>;
   uPageSize: THREE.IUniform<THREE.Vector2>;
 }
 
@@ -64,7 +65,7 @@ uniform highp sampler2D uScales;
 uniform mat3 uMapTransform;
 out vec2 vUv;
 centroid out vec2 vLightUv;
-flat out vec2 vScale;
+flat out vec3 vScale;
 #ifdef USE_COLOR
 out vec3 vTint;
 #endif
@@ -80,23 +81,25 @@ void main() {
   #endif
   vLightUv = uv1;
   int chart = int(_chart + 0.5);
-  vScale = texelFetch(uScales, ivec2(chart % ${scalesWidth}, chart / ${scalesWidth}), 0).rg;
+  vScale = texelFetch(uScales, ivec2(chart % ${scalesWidth}, chart / ${scalesWidth}), 0).rgb;
   gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
 }
 `;
 
 // E [klx] = sky page (sRGB decoded by the hardware, before it filters) × the chart's sky scale
-//         + sun page × the chart's sun scale × the beam's normal illuminance;  L [kcd/m²] = albedo/π × E.
+//         + sun page × the chart's sun scale × the beam's normal illuminance
+//         + indirect page (likewise) × the chart's indirect scale;  L [kcd/m²] = albedo/π × E.
 // The gutter about a chart is two texels wide: level 1 of the mip chain is the last one whose bilinear footprint stays inside it.
 const fragmentShader = /* glsl */ `
 in vec2 vUv;
 centroid in vec2 vLightUv;
-flat in vec2 vScale;
+flat in vec3 vScale;
 #ifdef USE_COLOR
 in vec3 vTint;
 #endif
 uniform sampler2D uSkyPage;
 uniform sampler2D uSunPage;
+uniform sampler2D uIndirectPage;
 uniform vec2 uPageSize;
 uniform vec3 uSunKlx;
 uniform vec3 uBaseColor;
@@ -133,7 +136,8 @@ void main() {
   float level = clamp(0.5 * log2(max(max(dot(dx, dx), dot(dy, dy)), 1e-8)), 0.0, 1.0);
   vec3 sky = textureLod(uSkyPage, vLightUv, level).rgb * vScale.x;
   float sunCosine = textureLod(uSunPage, vLightUv, level).r * vScale.y;
-  vec3 illuminance = sky + sunCosine * uSunKlx;
+  vec3 indirect = vScale.z > 0.0 ? textureLod(uIndirectPage, vLightUv, level).rgb * vScale.z : vec3(0.0);
+  vec3 illuminance = sky + sunCosine * uSunKlx + indirect;
   outColor = toDisplay(albedo * illuminance * RECIPROCAL_PI);
 }
 `;

@@ -8,7 +8,7 @@ import { scalesWidth } from './city_material';
 /** The textures of one instant on the graphics card; dispose() gives their memory back. */
 export interface LightTextures {
   scales: THREE.DataTexture;
-  pages: { sky: THREE.Texture; sun: THREE.Texture }[];
+  pages: { sky: THREE.Texture; sun: THREE.Texture; indirect: THREE.Texture | null }[];
   panorama: THREE.DataTexture;
   dispose(): void;
 }
@@ -16,15 +16,16 @@ export interface LightTextures {
 /** Decodes the pages of an instant. Throws LoadError when a page is not the picture that the manifest announces. */
 export async function makeLightTextures(light: InstantLight): Promise<LightTextures> {
   const pages = await Promise.all(
-    light.pages.map(async ({ sky, sun }) => {
-      const [skyTexture, sunTexture] = await Promise.all([decodePage(sky), decodePage(sun)]);
+    light.pages.map(async ({ sky, sun, indirect }) => {
+      const [skyTexture, sunTexture, indirectTexture] = await Promise.all([decodePage(sky), decodePage(sun), indirect ? decodePage(indirect) : null]);
       skyTexture.colorSpace = THREE.SRGBColorSpace;
       sunTexture.colorSpace = THREE.NoColorSpace;
       sunTexture.format = THREE.RedFormat;
-      return { sky: skyTexture, sun: sunTexture };
+      if (indirectTexture) indirectTexture.colorSpace = THREE.SRGBColorSpace;
+      return { sky: skyTexture, sun: sunTexture, indirect: indirectTexture };
     }),
   );
-  const scales = makeScalesTexture(light.scales);
+  const scales = makeScalesTexture(light.scales, light.indirectScales);
   const { width, height, halves } = light.panorama;
   const panorama = new THREE.DataTexture(halves, width, height, THREE.RGBAFormat, THREE.HalfFloatType);
   panorama.minFilter = THREE.LinearFilter;
@@ -39,9 +40,10 @@ export async function makeLightTextures(light: InstantLight): Promise<LightTextu
     dispose() {
       scales.dispose();
       panorama.dispose();
-      for (const { sky, sun } of pages) {
+      for (const { sky, sun, indirect } of pages) {
         sky.dispose();
         sun.dispose();
+        indirect?.dispose();
       }
     },
   };
@@ -54,6 +56,7 @@ export function applyLight(textures: LightTextures, instant: BakedInstant, share
   pages.forEach((page, p) => {
     page.uSkyPage.value = textures.pages[p]?.sky ?? null;
     page.uSunPage.value = textures.pages[p]?.sun ?? null;
+    page.uIndirectPage.value = textures.pages[p]?.indirect ?? null;
   });
 }
 
@@ -78,12 +81,15 @@ async function decodePage(page: EncodedPage): Promise<THREE.Texture> {
   return texture;
 }
 
-function makeScalesTexture(scales: Float32Array<ArrayBuffer>): THREE.DataTexture {
+/** A pixel a chart: scales of sky, sun and reflected light; without the last its scale is 0, and no page is needed. */
+function makeScalesTexture(scales: Float32Array<ArrayBuffer>, indirectScales: Float32Array<ArrayBuffer> | null): THREE.DataTexture {
   const charts = scales.length / 2;
   const height = Math.max(1, Math.ceil(charts / scalesWidth));
-  const padded = new Float32Array(scalesWidth * height * 2);
-  padded.set(scales);
-  const texture = new THREE.DataTexture(padded, scalesWidth, height, THREE.RGFormat, THREE.FloatType);
+  const padded = new Float32Array(scalesWidth * height * 4);
+  for (let chart = 0; chart < charts; ++chart) {
+    padded.set([scales[2 * chart] ?? 0, scales[2 * chart + 1] ?? 0, indirectScales?.[chart] ?? 0], 4 * chart);
+  }
+  const texture = new THREE.DataTexture(padded, scalesWidth, height, THREE.RGBAFormat, THREE.FloatType);
   texture.minFilter = THREE.NearestFilter;
   texture.magFilter = THREE.NearestFilter;
   texture.needsUpdate = true;

@@ -1,0 +1,44 @@
+// The settings of reflected light, the same in every verb that computes it.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "bake/bake_lightmaps.h"
+#include "light/path_reference.h"
+
+namespace skybake::cli {
+
+enum class Indirect { none, photons, reference };
+
+/// As typed; `indirect` is read by indirect_of.
+struct BounceOptions {
+    std::string indirect = "none";
+    int bounces = 8;
+    int paths = 1024;  // per point, of the reference
+    std::uint64_t photons = 1'000'000;
+    int nearest = 100;
+    std::string area{kPhotonAreaNames[0]};
+    int feelers = 8;
+    std::string lamps;  // file; empty: none
+};
+
+/// --indirect, --bounces, --photons, --nearest, --area and --feelers.
+void add_bounce_options(CLI::App* verb, BounceOptions& options);
+/// --paths and --lamps.
+void add_point_options(CLI::App* verb, BounceOptions& options);
+
+/// Throws InputError for a method that there is not, naming the nearest.
+Indirect indirect_of(const BounceOptions& options);
+
+/// What decides the reflected light, by the names of the options: for the manifest.
+std::vector<std::pair<std::string, std::string>> settings_of(const BounceOptions& options);
+
+BouncePhotons photons_of(const BounceOptions& options, std::uint64_t seed);
+PathOptions path_options_of(const BounceOptions& options, std::uint64_t seed);
+
+}  // namespace skybake::cli

@@ -1,0 +1,175 @@
+// Based on: Reichinger, Maierhofer, Tobler, "Skylight Illumination and Rendering of Urban Scenes", 2006, §3.2 (octagon
+// and feelers). Deviations: the photons are the nearest in the octagon's own metric, and the extension of the octagon
+// is the one that makes it unbiased at any number of photons (docs/physics.md).
+#include "light/photon_gather.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+
+#include "base/check.h"
+
+namespace skybake {
+
+namespace {
+
+constexpr float kRoot = 0.70710678118654752f;
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+// How many mean radii the search goes: a sixteenth of the mean density of photons still fills it.
+constexpr double kSearchRadii = 4.0;
+// Feelers reach this much farther than the photons: where they meet a wall, photons are looked for anew, up to here, so
+// that as many count as elsewhere.
+constexpr float kFeelerReach = 2.0f;
+// They fly this share of their length above the surface: over slopes that the plane's tolerance lets in, and kerbs.
+constexpr float kFeelerLift = 0.03f;
+
+Rgb flux_of(std::span<const NearPhoton> photons, std::span<const Photon> all) {
+    Vec3d sum(0.0);
+    for (const NearPhoton& near : photons) sum += Vec3d(all[near.photon].flux());
+    return Rgb(sum);
+}
+
+}  // namespace
+
+Rgb octagon_irradiance(std::span<const NearPhoton> photons, std::span<const Photon> all) {
+    std::array<float, 8> support;
+    std::array<std::size_t, 8> holder{};
+    support.fill(-kInfinity);
+    for (std::size_t i = 0; i < photons.size(); ++i) {
+        const Vec2f p = photons[i].offset;
+        const float diagonal = kRoot * (p.x + p.y), other = kRoot * (p.y - p.x);
+        const std::array<float, 8> along{p.x, diagonal, p.y, other, -p.x, -diagonal, -p.y, -other};
+        for (std::size_t k = 0; k < 8; ++k) {
+            if (along[k] > support[k]) {
+                support[k] = along[k];
+                holder[k] = i;
+            }
+        }
+    }
+    std::sort(holder.begin(), holder.end());
+    const std::size_t touching = static_cast<std::size_t>(std::unique(holder.begin(), holder.end()) - holder.begin());
+    if (photons.size() <= touching) return Rgb(0.0f);
+    // The box less its four corners; the support lines touch photons, so no corner reaches into another one.
+    const auto width = [&](std::size_t k) {
+        return static_cast<double>(support[k]) + static_cast<double>(support[k + 4]);
+    };
+    double area = width(0) * width(2);
+    for (std::size_t k = 0; k < 8; k += 2) {
+        const double leg = static_cast<double>(support[k]) + static_cast<double>(support[(k + 2) % 8]) -
+                           std::sqrt(2.0) * static_cast<double>(support[k + 1]);
+        area -= 0.5 * leg * leg;
+    }
+    if (!(area > 0.0)) return Rgb(0.0f);
+    const double m = static_cast<double>(photons.size()), b = static_cast<double>(touching);
+    return flux_of(photons, all) * static_cast<float>((m - b) / (m * area));
+}
+
+Rgb circle_irradiance(std::span<const NearPhoton> photons, std::span<const Photon> all, const PhotonWindow& window) {
+    // A polygon of the disc's own area, cut at the limits.
+    constexpr int kCorners = 64;
+    std::vector<Vec2d> polygon, cut;
+    const double turn = 2.0 * kPi / kCorners;
+    const double radius = static_cast<double>(window.radius) * std::sqrt(turn / std::sin(turn));
+    for (int i = 0; i < kCorners; ++i)
+        polygon.emplace_back(radius * std::cos(turn * (i + 0.5)), radius * std::sin(turn * (i + 0.5)));
+    for (std::size_t k = 0; k < 8; ++k) {
+        if (!std::isfinite(window.limit[k])) continue;
+        const Vec2d direction(surface_direction(k));
+        const double limit = static_cast<double>(window.limit[k]);
+        cut.clear();
+        for (std::size_t i = 0; i < polygon.size(); ++i) {
+            const Vec2d &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+            const double over_a = glm::dot(a, direction) - limit, over_b = glm::dot(b, direction) - limit;
+            if (over_a <= 0.0) cut.push_back(a);
+            if ((over_a < 0.0 && over_b > 0.0) || (over_a > 0.0 && over_b < 0.0))
+                cut.push_back(a + (b - a) * (over_a / (over_a - over_b)));
+        }
+        std::swap(polygon, cut);
+    }
+    double area = 0.0;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const Vec2d &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+        area += 0.5 * (a.x * b.y - a.y * b.x);
+    }
+    return area > 0.0 ? flux_of(photons, all) * static_cast<float>(1.0 / area) : Rgb(0.0f);
+}
+
+PhotonGatherer::PhotonGatherer(const PhotonMap& map, const RayScene& rays, double area_m2, const GatherOptions& options)
+    : map_(map), rays_(rays), options_(options) {
+    SKYBAKE_CHECK_LE(4, options.nearest);
+    SKYBAKE_CHECK(options.feelers == 0 || options.feelers == 4 || options.feelers == 8);
+    const double photons = std::max(1.0, static_cast<double>(map.photons().size()));
+    max_distance_ = static_cast<float>(kSearchRadii * std::sqrt(options.nearest * area_m2 / (kPi * photons)));
+}
+
+Rgb PhotonGatherer::irradiance(const Vec3f& position, const Vec3f& normal, std::vector<NearPhoton>& found,
+                               std::uint64_t& ray_count) const {
+    const bool is_octagon = options_.area == PhotonArea::octagon;
+    const SurfaceMetric metric = is_octagon ? SurfaceMetric::octagon : SurfaceMetric::circle;
+    const std::size_t wanted = static_cast<std::size_t>(options_.nearest);
+    PhotonWindow window{max_distance_, no_limits()};
+    const auto search = [&](float max_distance) {
+        map_.find_nearest(position, normal, metric, wanted, max_distance, window.limit, found);
+        window.radius = found.size() == wanted ? found.front().distance : max_distance;
+    };
+    search(max_distance_);
+    if (found.empty()) return Rgb(0.0f);
+    if (options_.feelers > 0) {
+        const float reach = kFeelerReach * window.radius;
+        if (find_limits(position, normal, reach, window, ray_count)) {
+            search(std::min(max_distance_, reach));
+            if (found.empty()) return Rgb(0.0f);
+        }
+    }
+    // The farthest photon ends the window and does not count: with it, n/A would be n/(n − 1) too bright.
+    const std::span<const NearPhoton> counted = std::span(found).subspan(found.size() == wanted ? 1 : 0);
+    return is_octagon ? octagon_irradiance(counted, map_.photons())
+                      : circle_irradiance(counted, map_.photons(), window);
+}
+
+bool PhotonGatherer::find_limits(const Vec3f& position, const Vec3f& normal, float reach, PhotonWindow& window,
+                                 std::uint64_t& ray_count) const {
+    const SurfaceAxes axes = surface_axes(normal);
+    const Vec3f origin = position + std::max(rays_.surface_offset(), kFeelerLift * reach) * normal;
+    bool is_limited = false;
+    for (std::size_t k = 0; k < 8; k += static_cast<std::size_t>(8 / options_.feelers)) {
+        const Vec2f along = surface_direction(k);
+        const Vec3f direction = glm::normalize(along.x * axes.u + along.y * axes.v);
+        ++ray_count;
+        if (!rays_.is_occluded(origin, direction, reach)) continue;
+        ++ray_count;
+        if (const auto hit = rays_.first_hit(origin, direction)) {
+            window.limit[k] = hit->distance;
+            is_limited = true;
+        }
+    }
+    return is_limited;
+}
+
+double surface_area(const Scene& scene) {
+    double area = 0.0;
+    for (const auto& t : scene.triangles)
+        area += 0.5 * static_cast<double>(glm::length(glm::cross(t[1] - t[0], t[2] - t[0])));
+    return area;
+}
+
+std::vector<IndirectLight> gather_indirect(std::span<const ReceiverPoint> points, const PhotonGatherer& gatherer,
+                                           std::uint64_t& ray_count) {
+    std::vector<IndirectLight> light(points.size());
+    std::atomic<std::uint64_t> rays{0};
+    constexpr std::size_t kPointsPerTask = 64;
+    tbb::parallel_for(std::size_t{0}, (points.size() + kPointsPerTask - 1) / kPointsPerTask, [&](std::size_t t) {
+        std::vector<NearPhoton> found;
+        std::uint64_t traced = 0;
+        for (std::size_t i = t * kPointsPerTask; i < std::min((t + 1) * kPointsPerTask, points.size()); ++i)
+            light[i].irradiance = gatherer.irradiance(points[i].position, points[i].normal, found, traced);
+        rays += traced;
+    });
+    ray_count += rays;
+    return light;
+}
+
+}  // namespace skybake

@@ -1,0 +1,76 @@
+// Reflected light at a point from the photons about it (paper §3.2).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "light/path_reference.h"
+#include "light/photon_map.h"
+#include "trace/ray_scene.h"
+
+namespace skybake {
+
+enum class PhotonArea {
+    octagon,  // the photons' bounding octagon, extended so that it is unbiased
+    circle    // the circle about the point out to the farthest photon
+};
+/// In the order of PhotonArea, as options and the manifest spell them.
+inline constexpr std::array<std::string_view, 2> kPhotonAreaNames{"octagon", "circle"};
+
+struct GatherOptions {
+    int nearest = 100;  // photons per point, at least 4
+    PhotonArea area = PhotonArea::octagon;
+    int feelers = 8;  // short rays along the surface: 0, 4 or 8
+};
+
+/// Flux over area of photons in the plane, lx per channel.
+///
+/// `window` is a region of the plane, fixed or ended by a photon that is not among these: the ball of `radius` in the
+/// area's metric about the point, less what lies beyond the limits: offset · direction k > limit[k], direction k at k ·
+/// 45° from u. All photons must lie in it.
+struct PhotonWindow {
+    float radius = 0.0f;
+    SurfaceLimits limit = no_limits();
+};
+
+/// The octagon's estimate ΣΦ (m − b) / (m A) of m photons, b of which touch their bounding octagon of area A: the
+/// octagon is extended by m/(m − b). Unbiased for any m for photons evenly spread over the window or over its part up
+/// to a straight border along the octagon's directions (docs/physics.md, "Octagon"); 0 where all touch it.
+Rgb octagon_irradiance(std::span<const NearPhoton> photons, std::span<const Photon> all);
+
+/// The circle's estimate: ΣΦ over the window's area.
+Rgb circle_irradiance(std::span<const NearPhoton> photons, std::span<const Photon> all, const PhotonWindow& window);
+
+class PhotonGatherer {
+  public:
+    /// `area_m2` of all surfaces: no photon is looked for farther away than four times the radius that holds `nearest`
+    /// of them on the mean.
+    PhotonGatherer(const PhotonMap& map, const RayScene& rays, double area_m2, const GatherOptions& options);
+
+    /// /// Irradiance at a point of a surface of unit `normal`, lx per channel. Feelers leave from a little above the
+    /// surface and reach twice as far as the photons; beyond what they meet no photon counts, the area ends there, and
+    /// others are looked for on this side, as far as the feelers.
+    /// Adds the number of feelers traced to `ray_count`. `found` is scratch. Thread-safe.
+    Rgb irradiance(const Vec3f& position, const Vec3f& normal, std::vector<NearPhoton>& found,
+                   std::uint64_t& ray_count) const;
+
+  private:
+    bool find_limits(const Vec3f& position, const Vec3f& normal, float reach, PhotonWindow& window,
+                     std::uint64_t& ray_count) const;
+
+    const PhotonMap& map_;
+    const RayScene& rays_;
+    GatherOptions options_;
+    float max_distance_;
+};
+
+/// Surface of the scene, both-sided triangles counted once, m².
+double surface_area(const Scene& scene);
+
+/// The same at free points; parallel. The standard error stays 0: one map knows nothing of its own.
+std::vector<IndirectLight> gather_indirect(std::span<const ReceiverPoint> points, const PhotonGatherer& gatherer,
+                                           std::uint64_t& ray_count);
+
+}  // namespace skybake

@@ -1,0 +1,387 @@
+// Based on: H. W. Jensen, "Realistic image synthesis using photon mapping", 2001, chapter 5. Deviations: sun and sky
+// are aimed at the scene's box; direct light is not stored (Reichinger, Maierhofer, Tobler 2006, §3.1).
+#include "light/photon_tracer.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <optional>
+
+#include "base/error.h"
+#include "base/hash_rng.h"
+#include "light/sky_distribution.h"
+#include "light/surfaces.h"
+
+namespace skybake {
+
+namespace {
+
+constexpr std::uint64_t kPhotonsPerTask = 8192;
+
+// The pilot run that finds where on the box's faces photons are worth sending: a share of all, but enough to say
+// something of each cell.
+constexpr int kAimCells = 32;  // a side of each face
+constexpr std::uint64_t kPilotShare = 20;
+constexpr std::uint64_t kMinPilot = 40'000;
+// What a cell's photons are taken to be worth at least, of the mean: none is given up.
+constexpr double kAimFloor = 0.02;
+
+/// Points of [0, 1)⁴ that fill it evenly however many are taken: multiples of powers of 1/g, modulo 1, where g⁵ = g
+/// + 1. Based on: M. Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018. In integers, so that far
+/// indices lose nothing.
+class DepartureSequence {
+  public:
+    DepartureSequence(std::uint64_t seed, std::uint64_t source) {
+        constexpr double kG = 1.1673039782614187;
+        double power = 1.0;
+        for (std::size_t d = 0; d < step_.size(); ++d) {
+            power /= kG;
+            step_[d] = static_cast<std::uint64_t>(power * 0x1p64);
+            shift_[d] = hash_combine(hash_combine(seed, source), d);
+        }
+    }
+    float at(std::uint64_t index, std::size_t dimension) const {
+        return static_cast<float>((shift_[dimension] + index * step_[dimension]) >> 40) * 0x1p-24f;
+    }
+
+  private:
+    std::array<std::uint64_t, 4> step_{}, shift_{};
+};
+
+/// A face of the scene's box that light enters through: corner and edges, and the normal that points out.
+struct BoxFace {
+    Vec3f corner, u, v, outward;
+    double area() const { return static_cast<double>(glm::length(u)) * static_cast<double>(glm::length(v)); }
+};
+
+std::vector<BoxFace> faces_of(const Box3f& box) {
+    const Vec3f size = box.hi - box.lo;
+    const Vec3f x(size.x, 0, 0), y(0, size.y, 0), z(0, 0, size.z);
+    return {{{box.lo.x, box.lo.y, box.hi.z}, x, y, {0, 0, 1}},
+            {box.lo, x, z, {0, -1, 0}},
+            {{box.lo.x, box.hi.y, box.lo.z}, x, z, {0, 1, 0}},
+            {box.lo, y, z, {-1, 0, 0}},
+            {{box.hi.x, box.lo.y, box.lo.z}, y, z, {1, 0, 0}}};
+}
+
+/// Where on a face photons depart: a density over its cells, evenly within each.
+class Aim {
+  public:
+    Aim() : Aim(std::vector<double>(kAimCells * kAimCells, 1.0)) {}
+    /// `weight` [row × kAimCells + column]: of each cell, positive.
+    explicit Aim(const std::vector<double>& weight) : cell_(weight), row_end_(kAimCells) {
+        double total = 0.0;
+        for (int row = 0; row < kAimCells; ++row) {
+            double sum = 0.0;
+            for (int column = 0; column < kAimCells; ++column) {
+                double& cell = cell_[static_cast<std::size_t>(row * kAimCells + column)];
+                sum += cell;
+                cell = sum;
+            }
+            total += sum;
+            row_end_[static_cast<std::size_t>(row)] = total;
+        }
+    }
+
+    /// The mean of the weights.
+    double mean() const { return row_end_.back() / (kAimCells * kAimCells); }
+
+    struct Place {
+        float u = 0.0f, v = 0.0f;  // on the face, 0…1
+        double density = 1.0;      // over that of an even spread
+        std::size_t cell = 0;
+    };
+    Place at(float a, float b) const {
+        const double target = static_cast<double>(b) * row_end_.back();
+        const std::size_t row =
+            static_cast<std::size_t>(std::upper_bound(row_end_.begin(), row_end_.end() - 1, target) - row_end_.begin());
+        const auto first = cell_.begin() + static_cast<std::ptrdiff_t>(row * kAimCells);
+        const double row_mass = first[kAimCells - 1];
+        const double up = std::clamp((target - (row_end_[row] - row_mass)) / row_mass, 0.0, 1.0);
+        const double wanted = static_cast<double>(a) * row_mass;
+        const std::ptrdiff_t column = std::upper_bound(first, first + kAimCells - 1, wanted) - first;
+        const double before = column == 0 ? 0.0 : first[column - 1];
+        const double mass = first[column] - before;
+        const double across = std::clamp((wanted - before) / mass, 0.0, 1.0);
+        return {static_cast<float>((static_cast<double>(column) + across) / kAimCells),
+                static_cast<float>((static_cast<double>(row) + up) / kAimCells), mass / mean(),
+                row * kAimCells + static_cast<std::size_t>(column)};
+    }
+
+  private:
+    std::vector<double> cell_;     // summed along each row, up to and with this one
+    std::vector<double> row_end_;  // all rows up to and with this one
+};
+
+struct Departure {
+    Vec3f origin, direction;
+    Rgb flux;              // lm
+    std::size_t cell = 0;  // of Aim, on a face
+};
+
+/// A source of photons: the sun or the sky through one face, or a lamp.
+class Emitter {
+  public:
+    enum class Kind { sun, sky, lamp };
+
+    Emitter(Kind kind, double flux, const BoxFace* face, const Lamp* lamp, std::optional<SkyDistribution> sky)
+        : flux_(flux), kind_(kind), face_(face), lamp_(lamp), sky_(std::move(sky)) {}
+
+    bool has_face() const { return face_ != nullptr; }
+    void set_aim(Aim aim) { aim_ = std::move(aim); }
+    /// What its share of the photons goes by: its flux (lm) times how much its photons are worth.
+    double worth() const { return flux_ * aim_.mean(); }
+
+    /// Photon `index` of `count`; none when its direction carries nothing.
+    std::optional<Departure> depart(const LightSources& sources, const DepartureSequence& sequence, std::uint64_t index,
+                                    std::uint64_t count) const {
+        const float a = sequence.at(index, 0), b = sequence.at(index, 1);
+        const float c = sequence.at(index, 2), d = sequence.at(index, 3);
+        const double n = static_cast<double>(count);
+        if (kind_ == Kind::lamp) return from_lamp(a, b, n);
+        Departure departure;
+        const Aim::Place place = aim_.at(a, b);
+        departure.cell = place.cell;
+        departure.origin = face_->corner + place.u * face_->u + place.v * face_->v;
+        double measure = face_->area() / (n * place.density);
+        if (kind_ == Kind::sun) {
+            const Vec3f to_sun = sample_sun(sources.daylight.sun, c, d);
+            measure *= static_cast<double>(glm::dot(to_sun, face_->outward));
+            departure.direction = -to_sun;
+            departure.flux = sources.daylight.sun.normal_illuminance;
+        } else {
+            const SkyDistribution::Sample sample = sky_->sample(c, d);
+            measure *= static_cast<double>(glm::dot(sample.direction, face_->outward) / sample.pdf_solid_angle);
+            departure.direction = -sample.direction;
+            departure.flux = sky_luminance(sources.daylight.sky, sample.direction);
+        }
+        departure.flux *= static_cast<float>(measure);
+        if (!(luminance(departure.flux) > 0.0f)) return std::nullopt;
+        return departure;
+    }
+
+  private:
+    std::optional<Departure> from_lamp(float a, float b, double count) const {
+        // Evenly over the cone, or the sphere.
+        const double lowest =
+            lamp_->type == Lamp::Type::point ? -1.0 : std::cos(static_cast<double>(lamp_->cone_half_angle_rad));
+        const float z = static_cast<float>(lowest + (1.0 - lowest) * static_cast<double>(a));
+        const float r = std::sqrt(std::max(0.0f, 1.0f - z * z)), turn = static_cast<float>(2.0 * kPi) * b;
+        const TangentFrame frame = tangent_frame(lamp_->axis);
+        const Vec3f direction =
+            glm::normalize(r * std::cos(turn) * frame.u + r * std::sin(turn) * frame.v + z * lamp_->axis);
+        const double solid_angle = 2.0 * kPi * (1.0 - lowest);
+        const Rgb flux =
+            lamp_->intensity * (intensity_share(*lamp_, direction) * static_cast<float>(solid_angle / count));
+        if (!(luminance(flux) > 0.0f)) return std::nullopt;
+        return Departure{lamp_->position, direction, flux, 0};
+    }
+
+    double flux_;
+    Kind kind_;
+    const BoxFace* face_;
+    const Lamp* lamp_;
+    std::optional<SkyDistribution> sky_;  // for the cosine about the face's normal
+    Aim aim_;                             // of a lamp: even
+};
+
+class PhotonTracer {
+  public:
+    PhotonTracer(const LightSources& sources, const Scene& scene, const RayScene& rays, const PhotonOptions& options)
+        : sources_(sources), scene_(scene), rays_(rays), options_(options) {
+        Box3f box = scene.bounds;
+        // A little larger: surfaces that lie on the box itself are met too.
+        const float margin = std::max(0.01f, 4.0f * rays.surface_offset());
+        box.lo -= margin;
+        box.hi += margin;
+        faces_ = faces_of(box);
+        const SunBeam& sun = sources.daylight.sun;
+        for (const BoxFace& face : faces_) {
+            const double cosine = static_cast<double>(glm::dot(sun.direction, face.outward));
+            // Half the disc may be below the face's plane; the cut is of no account next to what comes in elsewhere.
+            if (has_beam(sun) && cosine > static_cast<double>(sun.angular_radius_rad)) {
+                emitters_.emplace_back(Emitter::Kind::sun,
+                                       face.area() * cosine * static_cast<double>(luminance(sun.normal_illuminance)),
+                                       &face, nullptr, std::nullopt);
+            }
+        }
+        for (const BoxFace& face : faces_) {
+            SkyDistribution sky(sources.daylight.sky, face.outward);
+            const double flux = face.area() * sky.total();
+            if (flux > 0.0) emitters_.emplace_back(Emitter::Kind::sky, flux, &face, nullptr, std::move(sky));
+        }
+        for (const Lamp& lamp : sources.lamps) {
+            const double flux = effective_solid_angle(lamp) * static_cast<double>(luminance(lamp.intensity));
+            if (flux > 0.0) emitters_.emplace_back(Emitter::Kind::lamp, flux, nullptr, &lamp, std::nullopt);
+        }
+        for (std::size_t e = 0; e < emitters_.size(); ++e) sequences_.emplace_back(options.seed, e);
+        share_out(std::max(options.count / kPilotShare, kMinPilot));
+    }
+
+    std::uint64_t count() const { return first_.back(); }
+
+    /// Sends a small run ahead, and each face's photons henceforth to where that run's came to rest. The variance of a
+    /// sum over cells is least when each gets photons by the root of the mean square of what one of them gives (J.
+    /// Neyman 1934). Returns the number of rays.
+    std::uint64_t aim() {
+        constexpr std::size_t kCells = kAimCells * kAimCells;
+        std::vector<std::atomic<std::uint64_t>> sent(emitters_.size() * kCells), squares(sent.size());
+        std::atomic<std::uint64_t> rays{0};
+        tbb::parallel_for(std::uint64_t{0}, (count() + kPhotonsPerTask - 1) / kPhotonsPerTask, [&](std::uint64_t t) {
+            std::vector<Photon> stored;
+            PhotonLedger ledger;
+            const std::uint64_t end = std::min((t + 1) * kPhotonsPerTask, count());
+            for (std::uint64_t photon = t * kPhotonsPerTask; photon < end; ++photon) {
+                const std::size_t e = emitter_of(photon);
+                const auto departure = depart(e, photon);
+                if (!departure || !emitters_[e].has_face()) continue;
+                stored.clear();
+                follow(*departure, RandomSequence(options_.seed, photon, 1), stored, ledger);
+                const std::size_t cell = e * kCells + departure->cell;
+                ++sent[cell];
+                squares[cell] += stored.size() * stored.size();
+            }
+            rays += ledger.rays;
+        });
+        std::uint64_t all_sent = 0, all_squares = 0;
+        for (std::size_t i = 0; i < sent.size(); ++i) {
+            all_sent += sent[i];
+            all_squares += squares[i];
+        }
+        if (all_squares > 0) {
+            const double mean = static_cast<double>(all_squares) / static_cast<double>(all_sent);
+            for (std::size_t e = 0; e < emitters_.size(); ++e) {
+                if (!emitters_[e].has_face()) continue;
+                std::vector<double> weight(kCells);
+                for (std::size_t i = 0; i < kCells; ++i) {
+                    // With one photon of the mean's worth beside the cell's own.
+                    const double n = static_cast<double>(sent[e * kCells + i]) + 1.0;
+                    const double square = (static_cast<double>(squares[e * kCells + i]) + mean) / n;
+                    weight[i] = std::sqrt(square + kAimFloor * mean);
+                }
+                emitters_[e].set_aim(Aim(weight));
+            }
+        }
+        share_out(options_.count);
+        return rays;
+    }
+
+    void trace(std::uint64_t photon, std::vector<Photon>& stored, PhotonLedger& ledger) const {
+        if (const auto departure = depart(emitter_of(photon), photon)) {
+            ledger.emitted += static_cast<double>(luminance(departure->flux));
+            ++ledger.photons;
+            follow(*departure, RandomSequence(options_.seed, photon, 0), stored, ledger);
+        }
+    }
+
+  private:
+    /// Which photons are whose: by worth, each source at least one.
+    void share_out(std::uint64_t count) {
+        double total = 0.0, before = 0.0;
+        for (const Emitter& emitter : emitters_) total += emitter.worth();
+        const double n = static_cast<double>(count);
+        first_.assign(1, 0);
+        for (const Emitter& emitter : emitters_) {
+            const double after = before + emitter.worth();
+            const std::uint64_t share =
+                static_cast<std::uint64_t>(std::llround(after / total * n) - std::llround(before / total * n));
+            first_.push_back(first_.back() + std::max<std::uint64_t>(share, 1));
+            before = after;
+        }
+    }
+
+    std::size_t emitter_of(std::uint64_t photon) const {
+        return static_cast<std::size_t>(std::upper_bound(first_.begin(), first_.end(), photon) - first_.begin()) - 1;
+    }
+
+    std::optional<Departure> depart(std::size_t e, std::uint64_t photon) const {
+        return emitters_[e].depart(sources_, sequences_[e], photon - first_[e], first_[e + 1] - first_[e]);
+    }
+
+    void follow(const Departure& departure, RandomSequence random, std::vector<Photon>& stored,
+                PhotonLedger& ledger) const {
+        Rgb flux = departure.flux;
+        double lumen = static_cast<double>(luminance(flux));
+        Vec3f origin = departure.origin, direction = departure.direction;
+        for (int reflections = 0;; ++reflections) {
+            const auto hit = rays_.first_hit(origin, direction);
+            ++ledger.rays;
+            if (!hit) {
+                ledger.escaped += lumen;
+                return;
+            }
+            const SurfacePoint surface = surface_point(scene_, *hit);
+            if (reflections > 0) stored.emplace_back(surface.position, surface.normal, flux);
+            if (reflections == options_.bounces) {
+                ledger.at_limit += lumen;
+                return;
+            }
+            const Rgb reflected = flux * surface.albedo;
+            const float survival = luminance(reflected) / luminance(flux);
+            if (reflections == 0) {
+                // Nothing was stored yet: a photon that ended here would be traced in vain.
+                ledger.absorbed += lumen * (1.0 - static_cast<double>(survival));
+                lumen *= static_cast<double>(survival);
+                if (!(survival > 0.0f)) return;
+                flux = reflected;
+            } else {
+                if (!(random.next() < survival)) {
+                    ledger.absorbed += lumen;
+                    return;
+                }
+                flux = reflected / survival;
+            }
+            const float u = random.next(), v = random.next();
+            direction = square_to_cosine_hemisphere(surface.normal, u, v);
+            origin = surface.position + rays_.surface_offset() * surface.normal;
+        }
+    }
+
+    const LightSources& sources_;
+    const Scene& scene_;
+    const RayScene& rays_;
+    const PhotonOptions& options_;
+    std::vector<BoxFace> faces_;
+    std::vector<Emitter> emitters_;
+    std::vector<DepartureSequence> sequences_;  // [emitter]
+    std::vector<std::uint64_t> first_;          // [emitter]: its first photon; one more than there are emitters
+};
+
+}  // namespace
+
+PhotonRun trace_photons(const LightSources& sources, const Scene& scene, const RayScene& rays,
+                        const PhotonOptions& options, Progress& progress) {
+    PhotonRun run;
+    if (scene.triangles.empty()) return run;
+    PhotonTracer tracer(sources, scene, rays, options);
+    run.ledger.rays = tracer.aim();
+    const std::size_t tasks = static_cast<std::size_t>((tracer.count() + kPhotonsPerTask - 1) / kPhotonsPerTask);
+    std::vector<PhotonRun> parts(tasks);
+    progress.begin("photons", tracer.count());
+    tbb::parallel_for(std::size_t{0}, tasks, [&](std::size_t t) {
+        if (progress.stop_requested()) throw Interrupted();
+        const std::uint64_t begin = t * kPhotonsPerTask, end = std::min(begin + kPhotonsPerTask, tracer.count());
+        for (std::uint64_t photon = begin; photon < end; ++photon)
+            tracer.trace(photon, parts[t].photons, parts[t].ledger);
+        progress.advance(end - begin);
+    });
+    std::size_t stored = 0;
+    for (const PhotonRun& part : parts) stored += part.photons.size();
+    run.photons.reserve(stored);
+    for (PhotonRun& part : parts) {
+        run.photons.insert(run.photons.end(), part.photons.begin(), part.photons.end());
+        part.photons = {};
+        run.ledger.emitted += part.ledger.emitted;
+        run.ledger.absorbed += part.ledger.absorbed;
+        run.ledger.escaped += part.ledger.escaped;
+        run.ledger.at_limit += part.ledger.at_limit;
+        run.ledger.photons += part.ledger.photons;
+        run.ledger.rays += part.ledger.rays;
+    }
+    return run;
+}
+
+}  // namespace skybake
