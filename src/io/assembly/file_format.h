@@ -1,6 +1,7 @@
 // Which format a file is, by its first bytes: to choose the reader, or to refuse it by name.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -16,5 +17,9 @@ std::string format_of(std::string_view head);
 
 /// Fails with an InputError when there is no such file, or it is none; else its size in bytes.
 std::uintmax_t checked_file_size(const std::filesystem::path& path);
+
+/// FNV-1a of all its bytes (ContentHash), for readers that leave opening the file to a library. Throws InputError when
+/// it cannot be read.
+std::uint64_t hash_of_file(const std::filesystem::path& path);
 
 }  // namespace skybake::io

@@ -41,17 +41,15 @@ void read_map(std::string_view text, Texture& texture) {
 
 void read_mtl(const std::string& uri, const std::filesystem::path& folder, const std::string& where,
               ObjMaterials& materials, FindingLog& findings) {
-    std::string relative = uri;
-    std::replace(relative.begin(), relative.end(), '\\', '/');
-    const std::filesystem::path path = std::filesystem::path(relative).lexically_normal();
-    if (path.is_absolute() || (!path.empty() && *path.begin() == "..")) {
+    const std::optional<std::filesystem::path> path = path_below(folder, uri);
+    if (!path) {
         findings.add(make_finding(
             "SB402", where, fmt::format("material library '{}' lies outside the folder of the file; refused.", uri)));
         return;
     }
     std::error_code error;
     std::ifstream in;
-    if (std::filesystem::is_regular_file(folder / path, error)) in.open(folder / path, std::ios::binary);
+    if (std::filesystem::is_regular_file(*path, error)) in.open(*path, std::ios::binary);
     if (!in.is_open()) {
         findings.add(make_finding(
             "SB404", where, fmt::format("material library '{}' is missing; surfaces take default albedos.", uri)));
@@ -62,7 +60,7 @@ void read_mtl(const std::string& uri, const std::filesystem::path& folder, const
     std::size_t number = 0;
     for (std::string line; std::getline(in, line);) {
         ++number;
-        const std::string place = fmt::format("{}: line {}", path.filename().string(), number);
+        const std::string place = fmt::format("{}: line {}", path->filename().string(), number);
         std::string_view rest = line;
         const std::string_view word = next_word(rest);
         if (word == "newmtl") {
@@ -96,7 +94,7 @@ void read_mtl(const std::string& uri, const std::filesystem::path& folder, const
         } else if (word == "map_Kd") {
             Texture texture;
             read_map(rest, texture);
-            find_image(texture, folder / path.parent_path(), place, findings);
+            find_image(texture, path->parent_path(), place, findings);
             entry->texture = TextureId(materials.textures.size());
             materials.textures.push_back(std::move(texture));
         }

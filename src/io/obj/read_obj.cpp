@@ -3,18 +3,15 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 #include <fstream>
 #include <limits>
-#include <map>
 #include <optional>
 
 #include "base/error.h"
 #include "city/finding_codes.h"
-#include "city/polygon.h"
-#include "io/assembly/city_terms.h"
 #include "io/assembly/file_format.h"
+#include "io/assembly/mesh_objects.h"
 #include "io/obj/obj_text.h"
 #include "io/obj/read_mtl.h"
 
@@ -23,43 +20,6 @@ namespace {
 
 /// Between two looks at whether the user wants to stop.
 constexpr std::size_t kLinesPerLook = 4096;
-/// A mesh states no LoD; it counts as a body.
-constexpr int kMeshLod = 1;
-
-/// What a material's name says of its object: CityGML's terms and 3dfier's ("ForestWall" is the wall below a forest).
-std::optional<ObjectTerm> term_of_material(std::string_view name) {
-    static constexpr std::array kMore{
-        ObjectTerm{"Terrain", ObjectType::terrain},
-        ObjectTerm{"Ground", ObjectType::terrain},
-        ObjectTerm{"Water", ObjectType::water},
-        ObjectTerm{"Forest", ObjectType::plant_cover},
-        ObjectTerm{"Vegetation", ObjectType::plant_cover},
-        ObjectTerm{"Separation", ObjectType::other},
-    };
-    constexpr std::string_view kWall = "Wall";
-    if (name.size() > kWall.size() && name.ends_with(kWall)) name.remove_suffix(kWall.size());
-    for (const ObjectTerm& term : kMore) {
-        if (term.name == name) return term;
-    }
-    const std::optional<ObjectTerm> term = object_term(name);
-    return term && !term->is_interior ? term : std::nullopt;
-}
-
-/// True for a surface of heights: nearly all of it faces up. Empirical, on meshes of Lyon: terrain has 5 % of steep
-/// area and 3 % that faces down, buildings, open ones too, have 37 % of steep area and more.
-bool is_terrain(const Geometry& geometry) {
-    double up = 0.0, down = 0.0, steep = 0.0, all = 0.0;
-    for (const Surface& surface : geometry.surfaces) {
-        const Vec3d area = surface_area_vector(geometry, surface);
-        const double length = glm::length(area);
-        if (!std::isfinite(length)) continue;
-        all += length;
-        if (std::abs(area.z) < 0.2588 * length) steep += length;  // 75°, as for walls
-        (area.z > 0.0 ? up : down) += std::abs(area.z);
-    }
-    return up > 0.0 && down <= 0.05 * up && steep <= 0.2 * all;
-}
-
 class ObjReader {
   public:
     ObjReader(const std::filesystem::path& path, const ReadOptions& options, CityModel& city, FindingLog& findings,
@@ -68,7 +28,8 @@ class ObjReader {
           placement_(options.placement),
           findings_(findings),
           progress_(progress),
-          assembly_(path, city, findings) {}
+          assembly_(path, city, findings),
+          objects_(assembly_, path.stem().string()) {}
 
     ReadFile read() {
         ReadFile file;
@@ -111,12 +72,6 @@ class ObjReader {
         std::size_t vertex = 0;
         std::optional<std::size_t> uv;
     };
-    /// An object while it grows; `vertices` renumbers those of the file.
-    struct Growing {
-        ReadObject read;
-        std::map<std::size_t, std::uint32_t> vertices;
-    };
-
     std::string place() const { return fmt::format("{}: line {}", assembly_.name(), line_); }
     void tell(std::string_view code, std::string what) { findings_.add(make_finding(code, place(), std::move(what))); }
 
@@ -157,7 +112,7 @@ class ObjReader {
             vertices_.emplace_back(std::numeric_limits<double>::quiet_NaN());
             return;
         }
-        const Vec3d p = placement_.up == UpAxis::y ? Vec3d(*x, -*z, *y) : Vec3d(*x, *y, *z);
+        const Vec3d p = placement_.up.value_or(UpAxis::z) == UpAxis::y ? Vec3d(*x, -*z, *y) : Vec3d(*x, *y, *z);
         vertices_.push_back(placement_.origin + p);
     }
 
@@ -198,67 +153,42 @@ class ObjReader {
             }
             corners_.push_back(corner);
         }
-        while (corners_.size() > 1 && corners_.back().vertex == corners_.front().vertex) corners_.pop_back();
-        if (corners_.size() < 3) return tell("SB204", fmt::format("face has {} corners; left out.", corners_.size()));
-        Growing& growing = current();
-        Geometry& g = growing.read.object.geometry;
-        Surface surface;
-        surface.ring_begin = static_cast<std::uint32_t>(g.ring_first.size() - 1);
-        surface.ring_end = surface.ring_begin + 1;
-        surface.source_index = static_cast<std::uint32_t>(g.surfaces.size());
-        if (material_) surface.material = material_->material;
-        bool is_textured = material_ && material_->texture;
+        if (!growing_) growing_ = &objects_.at(name_, term_, fmt::format("line {}", line_));
+        SurfaceBuilder& surfaces = growing_->surfaces;
+        surfaces.begin_surface();
         for (const Corner& corner : corners_) {
+            std::vector<Vec3d>& vertices = surfaces.geometry.vertices;
             const auto [entry, is_new] =
-                growing.vertices.try_emplace(corner.vertex, static_cast<std::uint32_t>(g.vertices.size()));
-            if (is_new) g.vertices.push_back(vertices_[corner.vertex]);
-            g.corners.push_back(entry->second);
-            is_textured =
-                is_textured && corner.uv && std::isfinite(uvs_[*corner.uv].x) && std::isfinite(uvs_[*corner.uv].y);
+                growing_->vertices.try_emplace(corner.vertex, static_cast<std::uint32_t>(vertices.size()));
+            if (is_new) vertices.push_back(vertices_[corner.vertex]);
+            surfaces.add_corner(entry->second);
         }
-        if (is_textured) {
-            surface.texture = material_->texture;
-            g.corner_uv.resize(g.corners.size() - corners_.size(), Vec2f(0.0f));
-            for (const Corner& corner : corners_) g.corner_uv.push_back(uvs_[*corner.uv]);
-        } else if (material_ && material_->texture) {
-            tell("SB403", "a corner has no texture vertex; the face is taken without texture.");
+        const std::size_t count = surfaces.close_ring();
+        if (count < 3) {
+            surfaces.drop_surface();
+            findings_.add(short_ring(place(), true, count));
+            return;
         }
-        g.ring_first.push_back(static_cast<std::uint32_t>(g.corners.size()));
-        g.surfaces.push_back(surface);
+        Surface& surface = surfaces.end_surface(static_cast<std::uint32_t>(surfaces.geometry.surfaces.size()));
+        if (!material_) return;
+        surface.material = material_->material;
+        if (material_->texture) set_texture(count);
     }
 
-    /// The object that faces go to: one for each name and type.
-    Growing& current() {
-        if (growing_) return *growing_;
-        const ObjectType type = term_ ? term_->type : ObjectType::generic;
-        const auto [entry, is_new] = objects_.try_emplace({name_, type});
-        growing_ = &entry->second;
-        if (!is_new) return *growing_;
-        CityObject& object = growing_->read.object;
-        object.type = type;
-        object.type_name = term_ ? std::string(term_->name) : "Mesh";
-        object.id = name_.empty() ? path_.stem().string() : name_;
-        if (term_ && ids_.count(object.id) > 0) object.id = fmt::format("{}/{}", object.id, object.type_name);
-        ids_.insert(object.id);
-        object.where = fmt::format("{}: line {}: {} '{}'", assembly_.name(), line_, object.type_name, object.id);
-        object.lod = fmt::format("{}", kMeshLod);
-        growing_->read.lods = {object.lod};
-        return *growing_;
+    /// Of the face read last, which has its first `count` corners.
+    void set_texture(std::size_t count) {
+        std::vector<Vec2f> uvs;
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::optional<std::size_t> uv = corners_[i].uv;
+            if (!uv || !std::isfinite(uvs_[*uv].x) || !std::isfinite(uvs_[*uv].y))
+                return tell("SB403", "a corner has no texture vertex; the face is taken without texture.");
+            uvs.push_back(uvs_[*uv]);
+        }
+        growing_->surfaces.set_texture(*material_->texture, uvs);
     }
 
     void finish() {
-        const AppearanceMap map = assembly_.add_appearance(materials_.materials, materials_.textures);
-        for (auto& [key, growing] : objects_) {
-            CityObject& object = growing.read.object;
-            Geometry& g = object.geometry;
-            if (!g.corner_uv.empty()) g.corner_uv.resize(g.corners.size(), Vec2f(0.0f));
-            Shell shell;
-            shell.surface_end = static_cast<std::uint32_t>(g.surfaces.size());
-            g.shells.push_back(shell);
-            if (object.type == ObjectType::generic && object.type_name == "Mesh" && is_terrain(g))
-                object.type = ObjectType::terrain;
-            assembly_.add(std::move(growing.read), map);
-        }
+        objects_.finish(assembly_.add_appearance(materials_.materials, materials_.textures));
         assembly_.finish({});
     }
 
@@ -276,9 +206,8 @@ class ObjReader {
     std::optional<ObjectTerm> term_;
     std::string name_;
     bool has_objects_ = false;
-    std::map<std::pair<std::string, ObjectType>, Growing> objects_;
-    std::set<std::string> ids_;
-    Growing* growing_ = nullptr;
+    MeshObjects objects_;
+    MeshObject* growing_ = nullptr;
 };
 
 }  // namespace
