@@ -76,8 +76,10 @@ class GltfReader {
     }
 
   private:
+    std::string where(const std::string& place) const { return fmt::format("{}: {}", assembly_.name(), place); }
+
     void read_mesh(const GltfInstance& instance) {
-        const std::string mesh_place = fmt::format("{}: meshes[{}]", assembly_.name(), instance.mesh);
+        const std::string mesh_place = fmt::format("meshes[{}]", instance.mesh);
         try {
             const GltfJson& primitives = member(entry(document_.json(), "meshes", instance.mesh), "primitives");
             std::string name = instance.name;
@@ -87,11 +89,11 @@ class GltfReader {
                 try {
                     add_primitive(primitives[i], name, instance.to_asset);
                 } catch (const GltfFault& fault) {
-                    findings_.add(make_finding("SB101", place_, fmt::format("{}; left out.", fault.what())));
+                    findings_.add(make_finding("SB101", where(place_), fmt::format("{}; left out.", fault.what())));
                 }
             }
         } catch (const GltfFault& fault) {
-            findings_.add(make_finding("SB101", mesh_place, fmt::format("{}; left out.", fault.what())));
+            findings_.add(make_finding("SB101", where(mesh_place), fmt::format("{}; left out.", fault.what())));
         }
     }
 
@@ -165,7 +167,7 @@ class GltfReader {
         const GltfMaterial* material = index ? &appearance_.all[*index] : nullptr;
         const Primitive primitive = read_primitive(json, material);
         if (primitive.triangles.empty()) {
-            findings_.add(make_finding("SB102", place_, "points and lines have no surface; left out."));
+            findings_.add(make_finding("SB102", where(place_), "points and lines have no surface; left out."));
             return;
         }
         const std::optional<MaterialId> albedo = material_of(primitive, material);
@@ -173,8 +175,9 @@ class GltfReader {
         const bool has_uvs =
             is_textured && primitive.uvs.components == 2 && primitive.uvs.count() == primitive.positions.count();
         if (is_textured && !has_uvs) {
-            findings_.add(make_finding(
-                "SB403", place_, fmt::format("has no TEXCOORD_{} for its texture; taken without.", material->uv_set)));
+            findings_.add(
+                make_finding("SB403", where(place_),
+                             fmt::format("has no TEXCOORD_{} for its texture; taken without.", material->uv_set)));
         }
         const bool is_mirrored = glm::determinant(glm::dmat3(to_asset)) < 0.0;
         const std::optional<ObjectTerm> term = material ? term_of_material(material->name) : std::nullopt;
@@ -268,7 +271,7 @@ class GltfReader {
     MeshObjects objects_;
     GltfAppearance appearance_;
     std::set<std::string> names_;
-    std::string place_;  // of the primitive at hand
+    std::string place_;  // of the primitive at hand, within the file
     Box3d extent_;
 };
 
