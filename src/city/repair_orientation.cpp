@@ -22,9 +22,9 @@ constexpr double kClearVolume = 0.2;
 /// Ingolstadt's street stay as they are filed but for slivers, and windows that face inward go from 158 to 51 m²
 /// (docs/validation.md).
 constexpr double kClearVote = 0.2;
-/// Surfaces of one piece that are asked, and ray-triangle tests for one shell (a second at most).
+/// Surfaces of one piece that are asked, and ray-triangle tests for one shell (half a second at most).
 constexpr std::size_t kMostAsked = 64;
-constexpr std::size_t kMostRays = 50'000'000;
+constexpr std::size_t kMostRays = 20'000'000;
 
 /// One use of an edge: by a surface, along (lo, hi) or against it.
 struct EdgeUse {

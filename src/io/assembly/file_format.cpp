@@ -73,8 +73,9 @@ std::string format_of(std::string_view head) {
     if (head[0] == '{') {
         if (contains("\"asset\"") && !contains("CityJSON"))
             return contains("geometricError") ? "a 3D Tiles tileset" : "glTF";
-        if (contains("FeatureCollection")) return "GeoJSON";
+        if (contains("\"FeatureCollection\"") || contains("\"Feature\"")) return "GeoJSON";
     }
+    if (head[0] != '{' && head[0] != '[') return "of no format that is known here";
     return "";
 }
 
