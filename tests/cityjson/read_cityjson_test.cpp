@@ -85,7 +85,7 @@ TEST(ReadCityJson, OtherFormatsAreRefusedByName) {
     EXPECT_THAT(error_of("<?xml version=\"1.0\"?><COLLADA/>"),
                 HasSubstr("is COLLADA, which this version does not read"));
     EXPECT_THAT(error_of("pnts...."), HasSubstr("is 3D Tiles (pnts)"));
-    EXPECT_THAT(error_of("date;E00;A00"), HasSubstr("is of no format that is known here"));
+    EXPECT_THAT(error_of("date;E00;A00"), HasSubstr("is a file of unknown format"));
     EXPECT_THAT(error_of("LOCATION,Graz,,AUT"), HasSubstr("is EnergyPlus weather (EPW)"));
     EXPECT_THAT(error_of("\x1f\x8b\x08"), HasSubstr("is gzip-compressed data"));
     SilentProgress progress;

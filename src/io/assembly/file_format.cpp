@@ -75,7 +75,7 @@ std::string format_of(std::string_view head) {
             return contains("geometricError") ? "a 3D Tiles tileset" : "glTF";
         if (contains("\"FeatureCollection\"") || contains("\"Feature\"")) return "GeoJSON";
     }
-    if (head[0] != '{' && head[0] != '[') return "of no format that is known here";
+    if (head[0] != '{' && head[0] != '[') return "a file of unknown format";
     return "";
 }
 

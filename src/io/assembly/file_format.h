@@ -12,7 +12,7 @@ namespace skybake::io {
 std::string head_of(const std::filesystem::path& path);
 
 /// What the first bytes of a file look like: "CityGML", "Wavefront OBJ", "3D Tiles (b3dm)" …; empty when it may be
-/// CityJSON, "of no format that is known here" for anything else.
+/// CityJSON, "a file of unknown format" for anything else.
 std::string format_of(std::string_view head);
 
 /// Fails with an InputError when there is no such file, or it is none; else its size in bytes.
