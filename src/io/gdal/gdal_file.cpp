@@ -1,7 +1,6 @@
 #include "io/gdal/gdal_file.h"
 
 #include <cpl_conv.h>
-#include <cpl_error.h>
 #include <fmt/format.h>
 #include <ogr_spatialref.h>
 
@@ -20,11 +19,10 @@ DatasetPtr open_dataset(const std::filesystem::path& path, unsigned kind, std::s
     });
     std::vector<const char*> allowed(drivers.begin(), drivers.end());
     allowed.push_back(nullptr);
-    CPLPushErrorHandler(CPLQuietErrorHandler);
+    const QuietErrors quiet;
     CPLErrorReset();
     DatasetPtr dataset(GDALDataset::Open(path.c_str(), kind | GDAL_OF_READONLY, allowed.data(), nullptr, nullptr));
     const std::string reason = CPLGetLastErrorMsg();
-    CPLPopErrorHandler();
     if (!dataset) {
         throw InputError(fmt::format("{}: cannot be opened ({}). Write it anew with GDAL.", path.string(),
                                      reason.empty() ? "it is damaged or of another kind" : reason.substr(0, 300)));

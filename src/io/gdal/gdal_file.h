@@ -1,6 +1,7 @@
 // GDAL behind values that free themselves. Private to the folder; the only header that shows GDAL.
 #pragma once
 
+#include <cpl_error.h>
 #include <gdal_priv.h>
 
 #include <filesystem>
@@ -11,6 +12,15 @@
 #include "base/vec.h"
 
 namespace skybake::io {
+
+/// While it lives, GDAL prints nothing in this thread: faults are told by what its functions return.
+class QuietErrors {
+  public:
+    QuietErrors() { CPLPushErrorHandler(CPLQuietErrorHandler); }
+    ~QuietErrors() { CPLPopErrorHandler(); }
+    QuietErrors(const QuietErrors&) = delete;
+    QuietErrors& operator=(const QuietErrors&) = delete;
+};
 
 struct DatasetDeleter {
     void operator()(GDALDataset* dataset) const { GDALClose(dataset); }

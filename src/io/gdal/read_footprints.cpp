@@ -98,6 +98,7 @@ class FootprintReader {
 
     ReadFile read() {
         ReadFile file{checked_file_size(path_), hash_of_file(path_)};
+        const QuietErrors quiet;
         const DatasetPtr dataset = open_dataset(path_, GDAL_OF_VECTOR, kDrivers);
         progress_.begin("read " + path_.filename().string(), static_cast<std::uint64_t>(dataset->GetLayerCount()));
         for (int i = 0; i < dataset->GetLayerCount(); ++i) {
@@ -116,15 +117,10 @@ class FootprintReader {
         const NamedSystem system = named_system(layer.GetSpatialRef());
         is_degrees_ = layer.GetSpatialRef() && layer.GetSpatialRef()->IsGeographic();
         layer.ResetReading();
-        CPLPushErrorHandler(CPLQuietErrorHandler);
         while (const OGRFeatureUniquePtr feature{layer.GetNextFeature()}) {
-            if (progress_.stop_requested()) {
-                CPLPopErrorHandler();
-                throw Interrupted();
-            }
+            if (progress_.stop_requested()) throw Interrupted();
             read_feature(*feature, layer, system, assembly);
         }
-        CPLPopErrorHandler();
         FileFacts facts;
         facts.crs = system.name;
         assembly.finish(facts);

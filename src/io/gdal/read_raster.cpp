@@ -73,6 +73,7 @@ ReadFile read_raster(const std::filesystem::path& path, const ReadOptions& optio
     ReadFile file{checked_file_size(path), hash_of_file(path)};
     CityAssembly assembly(path, city, findings);
     progress.begin("read " + assembly.name(), 1);
+    const QuietErrors quiet;
     const DatasetPtr dataset = open_dataset(path, GDAL_OF_RASTER, kDrivers);
     const HeightGrid grid = read_heights(path, *dataset);
     const NamedSystem system = named_system(dataset->GetSpatialRef());
