@@ -18,7 +18,7 @@ namespace {
 // roundings of coordinates of a kilometre, and less than points are lifted off their surface, so that it does not shade
 // itself.
 constexpr float kRegular = 5e-3f;
-constexpr float kFlat = 5e-4f;
+constexpr float kFlat = 2e-4f;
 // A triangle with fewer texels is not worth a facet.
 constexpr std::size_t kFacetTexels = 24;
 

@@ -220,28 +220,39 @@ HWY_INLINE void cast_on_rows(std::uint64_t* open, const RowBounds& bounds, std::
 HWY_INLINE void cast_on_facet(ProjectionTile::Facet& facet, const Shadows& shadows, std::uint32_t hit, Vec2f slope,
                               float margin) {
     const Lanes16 tag;
-    RowBounds bounds;
-    const V zero = hn::Zero(tag);
     const std::size_t planes = shadows.is_cut ? 5 : 4;
+    const V zero = hn::Zero(tag);
     const V hu = hn::Set(tag, facet.slope.x), hv = hn::Set(tag, facet.slope.y), h0 = hn::Set(tag, facet.offset);
+    V a[Shadows::kPlanes], b[Shadows::kPlanes], c[Shadows::kPlanes];
+    RowBounds bounds;
+    std::uint32_t crossed = 0;
     for (std::size_t k = 0; k < planes; ++k) {
         // In the facet's own u and v: its point (u, v, h) is projected to (u, v) − h × slope.
-        V a = hn::Load(tag, shadows.a[k]), b = hn::Load(tag, shadows.b[k]), c = hn::Load(tag, shadows.c[k]);
-        V g = hn::Add(hn::Mul(a, hn::Set(tag, slope.x)), hn::Mul(b, hn::Set(tag, slope.y)));
+        a[k] = hn::Load(tag, shadows.a[k]);
+        b[k] = hn::Load(tag, shadows.b[k]);
+        c[k] = hn::Load(tag, shadows.c[k]);
+        V g = hn::Add(hn::Mul(a[k], hn::Set(tag, slope.x)), hn::Mul(b[k], hn::Set(tag, slope.y)));
         if (k == 4) g = hn::Add(g, hn::Load(tag, shadows.scale));
-        a = hn::Sub(a, hn::Mul(g, hu));
-        b = hn::Sub(b, hn::Mul(g, hv));
-        c = hn::Sub(c, hn::Mul(g, h0));
-        const V a_lo = hn::Mul(a, hn::Set(tag, facet.box.lo.x)), a_hi = hn::Mul(a, hn::Set(tag, facet.box.hi.x)),
-                b_lo = hn::Mul(b, hn::Set(tag, facet.box.lo.y)), b_hi = hn::Mul(b, hn::Set(tag, facet.box.hi.y));
-        const V highest = hn::Add(hn::Add(hn::Max(a_lo, a_hi), hn::Max(b_lo, b_hi)), c),
-                lowest = hn::Add(hn::Add(hn::Min(a_lo, a_hi), hn::Min(b_lo, b_hi)), c);
+        a[k] = hn::Sub(a[k], hn::Mul(g, hu));
+        b[k] = hn::Sub(b[k], hn::Mul(g, hv));
+        c[k] = hn::Sub(c[k], hn::Mul(g, h0));
+        const V a_lo = hn::Mul(a[k], hn::Set(tag, facet.box.lo.x)), a_hi = hn::Mul(a[k], hn::Set(tag, facet.box.hi.x)),
+                b_lo = hn::Mul(b[k], hn::Set(tag, facet.box.lo.y)), b_hi = hn::Mul(b[k], hn::Set(tag, facet.box.hi.y));
+        const V most = hn::Add(hn::Add(hn::Max(a_lo, a_hi), hn::Max(b_lo, b_hi)), c[k]),
+                least = hn::Add(hn::Add(hn::Min(a_lo, a_hi), hn::Min(b_lo, b_hi)), c[k]);
         const std::uint32_t applies = k == 4 ? shadows.is_cut : ~0u;
-        hit &= bits_of(tag, hn::Ge(highest, zero)) | ~applies;
-        bounds.crosses[k] = bits_of(tag, hn::Lt(lowest, zero)) & applies;
-        set_row_bounds(bounds, k, a, b, c);
+        hit &= bits_of(tag, hn::Ge(most, zero)) | ~applies;
+        bounds.crosses[k] = bits_of(tag, hn::Lt(least, zero)) & applies;
+        crossed |= bounds.crosses[k];
+    }
+    if (hit & ~crossed) {  // the facet lies whole in one shadow
+        facet.is_dark = true;
+        return;
     }
     if (!hit) return;
+    for (std::size_t k = 0; k < planes; ++k) {
+        if (bounds.crosses[k] & hit) set_row_bounds(bounds, k, a[k], b[k], c[k]);
+    }
     for (; hit; hit &= hit - 1) {
         const std::size_t lane = static_cast<std::size_t>(std::countr_zero(hit));
         const float lo = std::max(shadows.lo_v[lane] - margin, static_cast<float>(facet.row_begin));

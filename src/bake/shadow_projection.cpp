@@ -72,6 +72,7 @@ bool ShadowProjector::find_visible(const Vec3f& direction, std::span<std::uint64
     std::fill(visible.begin(), visible.end(), 0);
     if (answer == Answer::dark) return true;
     for (const ProjectionTile::Facet& facet : tile_.facets) {
+        if (facet.is_dark) continue;
         for (int row = facet.row_begin; row < facet.row_end; ++row)
             visible[row] |= facet.open[static_cast<std::size_t>(row)];
     }

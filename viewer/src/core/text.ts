@@ -28,11 +28,16 @@ export const text = {
   exposureValue: (ev: number, total: number) =>
     `${ev > 0 ? '+' : ev < 0 ? '−' : '±'}${Math.abs(ev).toFixed(1)} EV · white at ${formatLuminance(1 / total)}`,
   exposureUnused: 'not used: no light in this picture',
+  air: 'Air',
+  airSwitch: 'Haze over distance',
+  airHint: 'What the air between you and the city takes and adds; off: as in a vacuum',
+  airNote: (turbidity: number, sightKm: number) => `turbidity ${turbidity.toFixed(1)}: sight ${sightKm.toFixed(0)} km`,
+  airUnused: 'not used in this picture',
   hidePanel: 'Hide',
   showPanel: 'Settings',
   help: {
-    orbit: 'Drag: turn · Right drag or Shift+drag: shift · Wheel: nearer · P: walk · 1 2 3: picture · , .: time · + −: exposure · R: reset · H: hide panel',
-    walk: 'W A S D or arrows: walk · Shift: run · Drag: look · O: orbit · 1 2 3: picture · , .: time · + −: exposure · R: reset · H: hide panel',
+    orbit: 'Drag: turn · Right drag or Shift+drag: shift · Wheel: nearer · P: walk · 1 2 3: picture · , .: time · + −: exposure · F: haze · R: reset · H: hide panel',
+    walk: 'W A S D or arrows: walk · Shift: run · Drag: look · O: orbit · 1 2 3: picture · , .: time · + −: exposure · F: haze · R: reset · H: hide panel',
   },
   movePad: 'Walk',
   movePadButtons: { forward: 'Forward', back: 'Back', left: 'Left', right: 'Right' },
