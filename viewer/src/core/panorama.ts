@@ -31,10 +31,10 @@ export class Panorama {
   /** Illuminance of open level ground by the sky, klx: the sum of L sin(e) over the solid angles cos(e) de da. */
   horizontalIlluminance(): [number, number, number] {
     const sum: [number, number, number] = [0, 0, 0];
-    const stepElevation = Math.PI / 2 / this.height;
+    const stepElevation = Math.PI / 2 / (this.height - 1); // the half rows at zenith and horizon weigh nothing
     const stepAzimuth = (2 * Math.PI) / this.width;
     for (let row = 0; row < this.height; ++row) {
-      const elevation = Math.PI / 2 - (row + 0.5) * stepElevation;
+      const elevation = Math.PI / 2 - row * stepElevation;
       const weight = Math.sin(elevation) * Math.cos(elevation) * stepElevation * stepAzimuth;
       for (let column = 0; column < this.width; ++column) {
         const value = this.at(column, row);

@@ -9,6 +9,7 @@ export interface PanelActions {
   mode(mode: Mode): void;
   view(index: number): void;
   ev(ev: number): void;
+  copyLink(): void;
 }
 
 export interface PanelState {
@@ -79,6 +80,9 @@ export class Panel {
     const evReset = element('button', { type: 'button' }, [text.exposureReset]);
     evReset.addEventListener('click', () => actions.ev(0));
 
+    const copyLink = element('button', { type: 'button', title: text.copyLinkHint }, [text.copyLink]);
+    copyLink.addEventListener('click', () => actions.copyLink());
+
     const hide = element('button', { type: 'button', title: `${text.hidePanel} (H)` }, [text.hidePanel]);
     hide.addEventListener('click', () => this.show(false));
     this.opener = element('button', { type: 'button', class: 'open-panel', hidden: '' }, [text.showPanel]);
@@ -94,7 +98,7 @@ export class Panel {
       this.sunNote,
       element('fieldset', { class: 'field' }, [element('legend', {}, [text.picture]), pictureGroup]),
       element('fieldset', { class: 'field' }, [element('legend', {}, [text.navigation]), modeGroup]),
-      element('div', { class: 'field' }, [element('label', { for: 'view' }, [text.views]), this.viewSelect]),
+      element('div', { class: 'field' }, [element('label', { for: 'view' }, [text.views]), this.viewSelect, copyLink]),
       element('div', { class: 'field' }, [
         element('label', { for: 'ev' }, [text.exposure]),
         element('div', { class: 'row' }, [this.evSlider, evReset]),
