@@ -7,6 +7,7 @@ import path from 'node:path';
 import type { Browser } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 import type { Manifest } from '../../src/core/generated/manifest';
+import type { Vec3 } from '../../src/core/units';
 import { formatViewState } from '../../src/core/view_state';
 import { findChromium, launch, openPage } from '../support/chromium';
 import { decodePng, encodePng } from '../support/png';
@@ -20,11 +21,10 @@ const size = { width: 640, height: 360 };
 const gap = 8;
 
 /**
- * Of 255, over all channels. What remains is measured on the old town and The Hague (docs/validation.md): a graphics card takes 4 samples a
- * pixel at edges and averages their codes, filters textures in its own way, and its lightmaps have 8 bit. An exposure off by a fifth of a stop
- * gives a mean of 4.
+ * Of 255, over all channels. Measured on the old town, the FZK house, The Hague and Rotterdam (docs/validation.md): means to 1.6, p95 to 9, where a
+ * fine texture is filtered in two ways; besides, a card takes 4 samples at edges and its lightmaps have 8 bit. A tenth of a stop would be 3 everywhere.
  */
-const bounds = { mean: 2.0, p95: 8 };
+const bounds = { mean: 2, p95: 12 };
 
 if (!bake || !program) console.warn('walkthrough against `skybake render`: skipped, needs a bake folder and SKYBAKE_PROGRAM');
 
@@ -44,21 +44,21 @@ describe.skipIf(!chromium || !bake || !program)('the walkthrough and the still',
   });
 
   test.each([
-    ['first view', 0, 'lit', 0],
-    ['first view, textures', 0, 'textures', 0],
-    ['first view, light, darker', 0, 'light', -1],
-    ['last view', -1, 'lit', 0.5],
-    ['last view, last instant', -1, 'lit', 0],
-  ] as const)('show the same: %s', async (name, viewIndex, picture, ev) => {
-    const view = manifest.views.at(viewIndex);
-    if (!view) return;
+    ['from the air', 'orbit', 'lit', 0],
+    ['from the air, textures', 'orbit', 'textures', 0],
+    ['from the air, light, darker', 'orbit', 'light', -1],
+    ['on foot', 'walk', 'lit', 0.5],
+    ['on foot, last instant', 'walk', 'lit', 0],
+  ] as const)('show the same: %s', async (name, mode, picture, ev) => {
+    const view = manifest.views.at(mode === 'walk' ? -1 : 0);
+    expect(view, 'the bake needs saved views').toBeDefined();
     const instant = name.endsWith('last instant') ? manifest.instants.length - 1 : 0;
-    const [position, target] = [view.position, view.target] as [[number, number, number], [number, number, number]];
-    const hash = formatViewState({ mode: 'orbit', position, target, picture, instant, ev });
+    const [position, target] = [view!.position, view!.target] as [Vec3, Vec3];
     const { page, problems } = await openPage(browser, size);
-    await whenReady(page, host.url + hash);
+    await whenReady(page, host.url + formatViewState({ mode, position, target, picture, instant, ev }));
     const shown = await canvas(page, size.width, size.height);
-    const link = page.url();
+    // The walkthrough has its own will (feet on the ground, no view from below): its link says what it came to.
+    const link = formatViewState({ ...(await page.evaluate(() => window.skybake!.view())), ev });
     await page.close();
     expect(problems).toEqual([]);
 

@@ -224,6 +224,16 @@ describe.skipIf(!chromium)('the walkthrough of the synthetic bake', () => {
     });
   });
 
+  test('a click copies the link to this very view', async () => {
+    await page.context().grantPermissions(['clipboard-read', 'clipboard-write']);
+    await page.evaluate(() => window.skybake!.setCamera([30, -40, 25], [0, 0, 4]));
+    await page.getByRole('button', { name: 'Copy link' }).click();
+    await page.getByText('The link to this view is copied.').waitFor();
+    const copied = await page.evaluate(() => navigator.clipboard.readText());
+    expect(copied).toBe(page.url());
+    expect(copied).toContain('#v=1&m=orbit&p=30.00,-40.00,25.00&t=0.00,0.00,4.00&s=');
+  });
+
   test('the console stayed clean', () => {
     expect(problems).toEqual([]);
   });
