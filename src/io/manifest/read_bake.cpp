@@ -34,7 +34,8 @@ Vec3f vec3_of(const nlohmann::json& json) {
 void read_daylight(const std::filesystem::path& folder, const nlohmann::json& json, const std::string& name,
                    StoredInstant& instant) {
     const nlohmann::json& sun = json.at("sun");
-    instant.sun.direction = glm::normalize(vec3_of(sun.at("direction")));
+    const Vec3f direction = vec3_of(sun.at("direction"));
+    if (direction != Vec3f(0.0f)) instant.sun.direction = glm::normalize(direction);  // none: a sky without sun
     instant.sun.angular_radius_rad =
         static_cast<float>(radians_from_degrees(sun.at("angular_radius_deg").get<double>()));
     if (sun.at("shape") != "none") instant.sun.normal_illuminance = 1e3f * vec3_of(sun.at("normal_illuminance_klx"));
