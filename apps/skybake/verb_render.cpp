@@ -199,9 +199,9 @@ std::string legend_title(PictureKind kind, const io::PartFactors& parts) {
     return fmt::format("Illuminance, {}, lx", names);
 }
 
-/// Lights the way of the picture: seconds since the last call.
 class Stopwatch {
   public:
+    /// Seconds since the last call.
     double lap() {
         const auto now = std::chrono::steady_clock::now();
         const double seconds = std::chrono::duration<double>(now - last_).count();
@@ -226,6 +226,23 @@ void check_options(const RenderOptions& options) {
         throw InputError("--range: goes from a lower to a higher value; with --log both are above 0.");
 }
 
+/// Options that would be passed over are refused: the user meant something by them.
+void check_use(const RenderOptions& options, PictureKind kind) {
+    const bool is_exr = fs::path(options.output).extension() == ".exr";
+    const bool is_parallel = options.projection == "orthographic" || options.projection == "plan";
+    const bool has_scale = !options.range.empty() || options.is_logarithmic;
+    const auto refuse = [](bool is_wrong, const char* what) {
+        if (is_wrong) throw InputError(fmt::format("{} Leave it out.", what));
+    };
+    refuse(options.exposure && is_exr, "--exposure: an .exr keeps the scene's own luminance.");
+    refuse(options.exposure && (is_measure(kind) || kind == PictureKind::textures),
+           "--exposure: this picture shows no luminance.");
+    refuse(has_scale && (is_exr || !is_measure(kind)), "--range, --log: only a .png of a measure has false colours.");
+    refuse(!options.parts.empty() && (kind == PictureKind::textures || kind == PictureKind::sky_view),
+           "--parts: this picture shows no light.");
+    refuse(options.width_m && !is_parallel, "--width: of orthographic pictures and plans.");
+}
+
 int run_render(const RenderOptions& options, const CommonOptions& common) {
     check_options(options);
     const Vec2i size = size_of(options);
@@ -239,6 +256,7 @@ int run_render(const RenderOptions& options, const CommonOptions& common) {
     const PictureKind kind = !options.picture.empty() ? kind_of(options.picture)
                              : link && link->kind     ? *link->kind
                                                       : PictureKind::lit;
+    check_use(options, kind);
     const io::PartFactors parts = parts_of(options.parts, io::light_parts(bake, instant));
     const PictureScene scene = io::read_city(bake);
     if (scene.triangles.empty())

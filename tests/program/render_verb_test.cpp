@@ -135,7 +135,12 @@ TEST_F(RenderVerb, WhatCannotBeDoneIsToldWithItsRemedy) {
         {{"-o", png, "--camera", "#v=1&p=0,0,0&t=0,0,x"}, "names no place"},
         {{"-o", png, "--camera", "#v=2&p=0,0,0&t=0,1,0"}, "another version"},
         {{"-o", png, "--camera", "#v=1&p=0,0,0&t=0,1,0&i=7"}, "the bake has 1"},
-        {{"-o", png, "--range", "5,1"}, "from a lower to a higher"}};
+        {{"-o", png, "--range", "5,1"}, "from a lower to a higher"},
+        {{"-o", png, "--range", "1,5"}, "only a .png of a measure"},
+        {{"-o", folder_->str("w.exr"), "--exposure", "1"}, "an .exr keeps"},
+        {{"-o", png, "--picture", "textures", "--exposure", "1"}, "shows no luminance"},
+        {{"-o", png, "--picture", "sky-view", "--parts", "sun"}, "shows no light"},
+        {{"-o", png, "--width", "30"}, "of orthographic pictures and plans"}};
     for (const auto& [arguments, message] : cases) {
         std::string err;
         EXPECT_EQ(render(arguments, &err), 2) << message;
