@@ -45,6 +45,7 @@ struct RenderOptions {
     std::vector<double> range;
     bool is_logarithmic = false;
     bool is_plain = false;
+    bool is_airless = false;
     int samples = 16;
 };
 
@@ -267,7 +268,9 @@ int run_render(const RenderOptions& options, const CommonOptions& common) {
         light = io::read_sky_view(bake);
     else if (kind != PictureKind::textures)
         light = io::read_illuminance(bake, instant, parts);
-    const Backdrop backdrop = io::read_backdrop(bake, instant);
+    // Parallel rays come from nowhere: between them and the city there is no stated length of air.
+    const bool is_airless = options.is_airless || shot.metres_per_pixel || (link && !link->has_air.value_or(true));
+    const Backdrop backdrop = io::read_backdrop(bake, instant, is_airless ? io::AirUse::left_out : io::AirUse::seen);
     const double read_s = watch.lap();
     const RayScene rays(scene.triangles);
     const double build_s = watch.lap();
@@ -367,6 +370,7 @@ void add_render(CLI::App& app, Program& program) {
         ->delimiter(',')
         ->expected(2);
     verb->add_flag("--log", options->is_logarithmic, "false colours by the logarithm");
+    verb->add_flag("--no-air", options->is_airless, "no haze over distance (orthographic and plan never have it)");
     verb->add_flag("--plain", options->is_plain, "no legend, north arrow and scale bar");
     verb->add_option("--samples", options->samples, "rays a pixel")->capture_default_str()->check(CLI::Range(1, 1024));
 }

@@ -77,7 +77,7 @@ ViewLink parse_view_link(const std::string& link) {
     const std::optional<Vec3f> position = vec3_of(field("p").value_or(""));
     const std::optional<Vec3f> target = vec3_of(field("t").value_or(""));
     if (!position || !target || *position == *target) fail("names no place to look from (p) and to (t)");
-    ViewLink view{*position, *target, {}, {}, {}};
+    ViewLink view{*position, *target, {}, {}, {}, {}};
     if (const auto picture = field("s")) {
         static const std::map<std::string, PictureKind> kKinds = {
             {"lit", PictureKind::lit}, {"textures", PictureKind::textures}, {"light", PictureKind::light}};
@@ -92,6 +92,10 @@ ViewLink parse_view_link(const std::string& link) {
     if (const auto ev = field("ev")) {
         view.ev = number_of<float>(*ev);
         if (!view.ev) fail(fmt::format("the exposure '{}' is no number", *ev));
+    }
+    if (const auto air = field("a")) {
+        if (*air != "0" && *air != "1") fail(fmt::format("the air '{}' is neither 0 nor 1", *air));
+        view.has_air = *air == "1";
     }
     return view;
 }

@@ -16,7 +16,8 @@ struct ViewLink {
     Vec3f target{0.0f};
     std::optional<PictureKind> kind;
     std::optional<std::size_t> instant;
-    std::optional<float> ev;  // stops
+    std::optional<float> ev;      // stops
+    std::optional<bool> has_air;  // the air between the eye and the city is seen
 };
 
 /// Reads a whole address or the part from its '#' on. Fields that it does not know are left to newer walkthroughs.

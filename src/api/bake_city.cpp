@@ -59,6 +59,8 @@ io::BakeDescription describe(const BakeCityOptions& options, const LoadedCity& l
         if (k < options.daylight.instants.size()) instant.utc = to_iso8601({options.daylight.instants[k].utc, 0});
         instant.sky_model = to_text(sky_at(options.daylight, k));
         instant.sky_panorama = sky_panorama(daylights[k].sky, io::kPanoramaWidth, io::kPanoramaHeight);
+        instant.land_luminance = land_luminance(daylights[k]);
+        if (!std::holds_alternative<NoSky>(daylights[k].sky)) instant.air = air_under(daylights[k]);
         description.instants.push_back(std::move(instant));
     }
     return description;

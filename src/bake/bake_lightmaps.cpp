@@ -15,6 +15,8 @@
 #include "atlas/chart_samples.h"
 #include "bake/finish_chart.h"
 #include "bake/indirect_chart.h"
+#include "bake/projection_tile.h"
+#include "bake/shadow_projection.h"
 #include "bake/sky_tile.h"
 #include "bake/sun_chart.h"
 #include "base/check.h"
@@ -193,7 +195,7 @@ class Baker {
                 options_.sampling == SkySampling::projected && can_project(chart.normal, dome.directions[j]);
             (is_projected ? bundled : others).push_back(j);
         }
-        DirectionBundles bundles(dome.directions, bundled);
+        NeighbourRuns bundles(dome.directions, bundled, ShadowProjector::kBundle);
         return {std::move(dome), std::move(bundles), std::move(others)};
     }
 

@@ -61,7 +61,7 @@ class Photographer {
             const std::optional<Hit> hit = rays_.first_hit(ray.origin, ray.direction);
             if (hit) ++hits;
             if (!hit && is_measure(settings_.kind)) continue;
-            const Rgb value = hit ? surface(*hit, place) : behind(ray.direction);
+            const Rgb value = hit ? surface(*hit, ray, place) : behind(ray);
             sum +=
                 has_light(settings_.kind) && settings_.exposure ? agx_tone_mapped(*settings_.exposure * value) : value;
         }
@@ -71,13 +71,13 @@ class Photographer {
     }
 
   private:
-    Rgb behind(const Vec3f& direction) const {
-        if (settings_.kind == PictureKind::textures) return paper_colour(direction);
-        const Rgb radiance = backdrop_.radiance(direction);
+    Rgb behind(const CameraRay& ray) const {
+        if (settings_.kind == PictureKind::textures) return paper_colour(ray.direction);
+        const Rgb radiance = backdrop_.radiance(ray.origin, ray.direction);
         return {std::min(radiance.x, kBrightest), std::min(radiance.y, kBrightest), std::min(radiance.z, kBrightest)};
     }
 
-    Rgb surface(const Hit& hit, const Vec2f& place) const {
+    Rgb surface(const Hit& hit, const CameraRay& ray, const Vec2f& place) const {
         const PictureSurface& surface = scene_.surfaces[hit.triangle];
         // How the texture coordinates change over the width of a sample, from the rays beside it in the plane of the
         // triangle (ray differentials: H. Igehy, "Tracing ray differentials", SIGGRAPH 1999).
@@ -109,7 +109,9 @@ class Photographer {
             }
         }
         if (settings_.kind == PictureKind::textures) return albedo;
-        return albedo * light() / static_cast<float>(kPi);
+        const Rgb luminance = albedo * light() / static_cast<float>(kPi);
+        if (settings_.kind == PictureKind::light) return luminance;  // for comparing walls, near and far
+        return backdrop_.through_air(luminance, ray.origin, ray.direction, hit.distance);
     }
 
     const PictureScene& scene_;

@@ -67,6 +67,8 @@ class BakeFolder : public ::testing::Test {
             InstantDescription instant;
             instant.sky_model = "uniform:luminance=3000";
             instant.sky_panorama.assign(std::size_t{kPanoramaWidth} * kPanoramaHeight, Rgb(3000.0f, 2000.0f, 1000.0f));
+            instant.land_luminance = Rgb(4000.0f);
+            if (i == 0) instant.air = air_under(bake.light.instants[i].daylight, 4, 6);
             description.instants.push_back(instant);
         }
         description.instants[0].utc = "2026-06-21T10:00:00Z";
@@ -325,7 +327,8 @@ TEST_F(BakeFolder, SameBytesForAnyNumberOfThreadsAndAnyDuration) {
         EXPECT_EQ(read_file(entry.path()), read_file(folder / "one" / relative.string())) << relative;
         ++count;
     }
-    EXPECT_EQ(count, 22u);  // 2 × (scales, panorama), 2 × (base, svf), 4 × (exr, sky, sun), city.glb, manifest.json
+    EXPECT_EQ(count,
+              23u);  // 2 × (scales, panorama), air, 2 × (base, svf), 4 × (exr, sky, sun), city.glb, manifest.json
 }
 
 // A stopped bake leaves no manifest, neither its own nor the old one's, and what it left is gone after the next.

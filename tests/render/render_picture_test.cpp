@@ -17,7 +17,7 @@ constexpr float kSky = 3000.0f;
 struct Card {
     PictureScene scene;
     SurfaceLight light;
-    Backdrop backdrop{{8, 5, std::vector<Rgb>(40, Rgb(kSky))}, {{0, 0, 1}, Rgb(0.0f), 0.005f}};
+    Backdrop backdrop{{8, 5, std::vector<Rgb>(40, Rgb(kSky))}, {{0, 0, 1}, Rgb(0.0f), 0.005f}, {}, {}};
 
     Card() {
         const std::array<Vec3f, 4> corners = {Vec3f(-2, 0, -2), {2, 0, -2}, {2, 0, 2}, {-2, 0, 2}};

@@ -1,4 +1,4 @@
-import { Bake } from './core/bake';
+import { Bake, type BakedInstant } from './core/bake';
 import { clampEv } from './core/exposure';
 import { LoadError } from './core/load_error';
 import { pictures, type Mode, type Picture } from './core/pictures';
@@ -17,6 +17,13 @@ const linkIntervalMs = 300;
 const noticeMs = 5000;
 
 type NamedView = { name: string; position: Vec3; target: Vec3 } | 'birds-eye' | 'on-foot';
+
+/** Koschmieder's sight: where a contrast of one fiftieth is left. */
+function airNote({ air }: BakedInstant): string | null {
+  if (!air) return null;
+  const green = (air.molecules_per_m[1] ?? 0) + (air.haze_per_m[1] ?? 0);
+  return text.airNote(air.turbidity, Math.log(50) / green / 1000);
+}
 
 /** Joins the bake, the drawing and the page. */
 export class App {
@@ -75,6 +82,7 @@ export class App {
         view: (index) => this.showView(index),
         ev: (ev) => this.setEv(ev),
         copyLink: () => void this.copyLink(),
+        air: (isSeen) => this.setAir(isSeen),
       },
     );
     document.body.append(this.panel.opener, this.panel.root, this.makePad());
@@ -98,6 +106,7 @@ export class App {
     this.progress.end();
     this.said.textContent = text.nowShowing(label);
     this.showSun(index);
+    this.panel?.setAirNote(airNote(bake.instant(index)));
     this.refresh();
   }
 
@@ -108,6 +117,11 @@ export class App {
 
   setEv(ev: number): void {
     this.viewer.ev = clampEv(ev);
+    this.refresh();
+  }
+
+  setAir(isSeen: boolean): void {
+    this.viewer.air = isSeen;
     this.refresh();
   }
 
@@ -159,6 +173,7 @@ export class App {
   private restore(state: Partial<ViewState>): void {
     if (state.picture) this.viewer.picture = state.picture;
     if (state.ev !== undefined) this.viewer.ev = clampEv(state.ev);
+    if (state.air !== undefined) this.viewer.air = state.air;
     if (state.position && state.target) {
       const isWalking = state.mode === 'walk' && this.viewer.walkFrom({ position: state.position, target: state.target });
       if (!isWalking) this.viewer.lookAt(state.position, state.target);
@@ -184,7 +199,7 @@ export class App {
 
   private refresh(): void {
     const { viewer } = this;
-    this.panel?.update({ instant: Math.max(0, viewer.instant), picture: viewer.picture, mode: viewer.mode, ev: viewer.ev, exposure: viewer.exposure });
+    this.panel?.update({ instant: Math.max(0, viewer.instant), picture: viewer.picture, mode: viewer.mode, ev: viewer.ev, exposure: viewer.exposure, air: viewer.air });
     this.help.textContent = text.help[viewer.mode];
     this.canvas.dataset['mode'] = viewer.mode;
     this.viewChanged();
@@ -200,7 +215,7 @@ export class App {
   /** The part of the address that restores what is seen now. */
   private link(): string {
     const { viewer } = this;
-    return formatViewState({ ...viewer.view, mode: viewer.mode, picture: viewer.picture, instant: viewer.instant, ev: viewer.ev });
+    return formatViewState({ ...viewer.view, mode: viewer.mode, picture: viewer.picture, instant: viewer.instant, ev: viewer.ev, air: viewer.air });
   }
 
   private async copyLink(): Promise<void> {
@@ -233,6 +248,7 @@ export class App {
     else if (event.key === '.' && this.viewer.instant < instants - 1) void this.showInstant(this.viewer.instant + 1);
     else if (event.key === '+' || event.key === '=') this.setEv(this.viewer.ev + 0.5);
     else if (event.key === '-') this.setEv(this.viewer.ev - 0.5);
+    else if (event.code === 'KeyF') this.setAir(!this.viewer.air);
     else if (event.code === 'KeyO') this.setMode('orbit');
     else if (event.code === 'KeyP') this.setMode('walk');
     else if (event.code === 'KeyR') this.showView(0);

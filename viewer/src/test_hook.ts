@@ -13,6 +13,7 @@ export interface TestHook {
   setInstant(index: number): Promise<void>;
   setPicture(picture: Picture): void;
   setMode(mode: Mode): void;
+  setAir(isSeen: boolean): void;
   /** Correction of the exposure, stops. */
   setExposure(ev: number): void;
   /** 'none' multiplies by the exposure and clips, so that a pixel can be computed by hand. */
@@ -45,6 +46,7 @@ export function installTestHook(app: App, ready: Promise<void>): void {
     setInstant: (index) => app.showInstant(index),
     setPicture: (picture) => app.setPicture(picture),
     setMode: (mode) => app.setMode(mode),
+    setAir: (isSeen) => app.setAir(isSeen),
     setExposure: (ev) => app.setEv(ev),
     setToneMapping: (name) => (viewer.toneMapping = name),
     setCamera: (position, target) => viewer.lookAt(position, target),

@@ -39,5 +39,8 @@ inline std::string scales(std::size_t instant) {
 inline std::string panorama(std::size_t instant) {
     return fmt::format("light/i{}_sky.bin", instant);
 }
+inline std::string air(std::size_t instant) {
+    return fmt::format("light/i{}_air.bin", instant);
+}
 
 }  // namespace skybake::io::names

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <system_error>
@@ -42,6 +43,19 @@ void read_daylight(const std::filesystem::path& folder, const nlohmann::json& js
     const nlohmann::json& panorama = json.at("sky").at("panorama");
     instant.panorama = {panorama.at("width").get<int>(), panorama.at("height").get<int>(),
                         file_in(folder, panorama.at("uri").get<std::string>())};
+    instant.land.luminance = 1e3f * vec3_of(json.at("sky").at("land_kcd_m2"));
+    if (json.contains("air")) {
+        const nlohmann::json& air = json["air"];
+        const nlohmann::json& airlight = air.at("airlight");
+        StoredAir stored;
+        stored.scattering = {Vec3d(vec3_of(air.at("molecules_per_m"))), Vec3d(vec3_of(air.at("haze_per_m")))};
+        stored.columns = airlight.at("columns").get<int>();
+        stored.rows = airlight.at("rows").get<int>();
+        stored.file = file_in(folder, airlight.at("uri").get<std::string>());
+        if (stored.columns < 1 || stored.rows < 2 || std::max(stored.columns, stored.rows) > kLargestPage)
+            throw InputError(fmt::format("{}: the instant '{}' has impossible air. Bake again.", name, instant.label));
+        instant.air = stored;
+    }
     instant.exposure_hint = json.at("exposure_hint").get<float>();
     const bool is_lit = std::isfinite(instant.exposure_hint) && instant.exposure_hint > 0.0f &&
                         std::isfinite(glm::length(instant.sun.direction)) &&
@@ -78,6 +92,7 @@ StoredBake from_json(const std::filesystem::path& folder, const nlohmann::json& 
         for (const nlohmann::json& page : instant.at("pages"))
             stored.pages.push_back(file_in(folder, page.at("exr").get<std::string>()));
         read_daylight(folder, instant, name, stored);
+        stored.land.height_m = json.at("bounds").at("min").at(2).get<float>();
         if (stored.pages.size() != bake.pages.size()) {
             throw InputError(fmt::format("{}: the instant '{}' has {} pages, and the atlas {}.", name, stored.label,
                                          stored.pages.size(), bake.pages.size()));

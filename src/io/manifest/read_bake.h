@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,11 +28,20 @@ struct StoredPanorama {
     std::filesystem::path file;  // four half floats a pixel, kcd m⁻²
 };
 
+struct StoredAir {
+    AirScattering scattering;
+    int columns = 0;
+    int rows = 0;
+    std::filesystem::path file;  // two tables of four half floats an entry, kcd m⁻²
+};
+
 struct StoredInstant {
     std::string label;
     std::vector<std::filesystem::path> pages;  // EXR with the light, one a page
     BackdropSun sun;
     StoredPanorama panorama;
+    BackdropLand land;
+    std::optional<StoredAir> air;
     float exposure_hint = 1.0f;  // m² kcd⁻¹, positive
 };
 

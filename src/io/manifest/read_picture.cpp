@@ -43,6 +43,26 @@ std::vector<Rgb> read_layer(const StoredBake& bake, std::size_t instant, std::si
     return texels;
 }
 
+/// Four halves a pixel (the last one 1), kcd m⁻² in the file, cd m⁻² here; width × height of them.
+std::vector<Rgb> read_half_pixels(const std::filesystem::path& path, int width, int height) {
+    const std::vector<std::uint8_t> bytes = read_file(path);
+    const std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    if (bytes.size() != 8 * count) {
+        throw InputError(fmt::format("{}: has {} bytes, and the manifest's {} x {} pixels need {}. Bake again.",
+                                     path.string(), bytes.size(), width, height, 8 * count));
+    }
+    std::vector<Rgb> pixels(count);
+    for (std::size_t i = 0; i < 3 * count; ++i) {
+        const std::size_t at = 8 * (i / 3) + 2 * (i % 3);
+        Imath::half value;
+        value.setBits(static_cast<std::uint16_t>(bytes[at] | bytes[at + 1] << 8));
+        if (!value.isFinite())
+            throw InputError(fmt::format("{}: holds light that is not finite. Bake again.", path.string()));
+        pixels[i / 3][static_cast<int>(i % 3)] = 1e3f * static_cast<float>(value);
+    }
+    return pixels;
+}
+
 }  // namespace
 
 std::vector<std::string> light_parts(const StoredBake& bake, std::size_t instant) {
@@ -80,27 +100,21 @@ SurfaceLight read_sky_view(const StoredBake& bake) {
     });
 }
 
-Backdrop read_backdrop(const StoredBake& bake, std::size_t instant) {
+Backdrop read_backdrop(const StoredBake& bake, std::size_t instant, AirUse use) {
     const StoredInstant& stored = bake.instants[instant];
-    const std::vector<std::uint8_t> bytes = read_file(stored.panorama.file);
-    const std::size_t count =
-        static_cast<std::size_t>(stored.panorama.width) * static_cast<std::size_t>(stored.panorama.height);
-    if (bytes.size() != 8 * count) {
-        throw InputError(fmt::format("{}: has {} bytes, and the manifest's {} x {} pixels need {}. Bake again.",
-                                     stored.panorama.file.string(), bytes.size(), stored.panorama.width,
-                                     stored.panorama.height, 8 * count));
+    const StoredPanorama& panorama = stored.panorama;
+    std::optional<Air> air;
+    if (stored.air && use == AirUse::seen) {
+        air = Air{stored.air->scattering, Vec3d(stored.sun.direction), stored.air->columns, stored.air->rows, {}, {}};
+        const std::vector<Rgb> tables = read_half_pixels(stored.air->file, 2 * air->columns, air->rows);
+        const auto middle = tables.begin() + static_cast<std::ptrdiff_t>(tables.size() / 2);
+        air->molecule_airlight.assign(tables.begin(), middle);
+        air->haze_airlight.assign(middle, tables.end());
     }
-    Panorama panorama{stored.panorama.width, stored.panorama.height, std::vector<Rgb>(count)};
-    for (std::size_t i = 0; i < 3 * count; ++i) {
-        const std::size_t at = 8 * (i / 3) + 2 * (i % 3);  // four halves a pixel, the last one is 1
-        Imath::half value;
-        value.setBits(static_cast<std::uint16_t>(bytes[at] | bytes[at + 1] << 8));
-        if (!value.isFinite())
-            throw InputError(
-                fmt::format("{}: holds light that is not finite. Bake again.", stored.panorama.file.string()));
-        panorama.pixels[i / 3][static_cast<int>(i % 3)] = 1e3f * static_cast<float>(value);
-    }
-    return {std::move(panorama), stored.sun};
+    return {{panorama.width, panorama.height, read_half_pixels(panorama.file, panorama.width, panorama.height)},
+            stored.sun,
+            stored.land,
+            std::move(air)};
 }
 
 }  // namespace skybake::io

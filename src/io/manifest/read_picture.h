@@ -1,6 +1,7 @@
 // What a still picture needs of a bake's folder.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,7 +27,9 @@ SurfaceLight read_illuminance(const StoredBake& bake, std::size_t instant, const
 /// The sky view factor, 0…1, in all three channels.
 SurfaceLight read_sky_view(const StoredBake& bake);
 
-/// The sky behind the city at an instant, with its sun.
-Backdrop read_backdrop(const StoredBake& bake, std::size_t instant);
+enum class AirUse : std::uint8_t { seen, left_out };
+
+/// Sky, sun and land about the city at an instant, and the air before it where the bake has it and `air` asks for it.
+Backdrop read_backdrop(const StoredBake& bake, std::size_t instant, AirUse air);
 
 }  // namespace skybake::io

@@ -89,13 +89,24 @@ void write_light(const std::filesystem::path& path, const Lightmaps& light, std:
                {"skybake.instant", light.instants[instant].daylight.label}});
 }
 
-std::vector<std::uint8_t> panorama_bytes(const std::vector<Rgb>& panorama) {
-    std::vector<std::uint16_t> halves;
-    halves.reserve(4 * panorama.size());
-    for (const Rgb& pixel : panorama) {
+/// Luminances in kcd/m² as R, G, B, 1.
+void append_halves(std::vector<std::uint16_t>& halves, const std::vector<Rgb>& luminances) {
+    for (const Rgb& pixel : luminances) {
         for (int c = 0; c < 3; ++c) halves.push_back(half_from_float(1e-3f * pixel[c]));
         halves.push_back(half_from_float(1.0f));
     }
+}
+
+std::vector<std::uint8_t> panorama_bytes(const std::vector<Rgb>& panorama) {
+    std::vector<std::uint16_t> halves;
+    append_halves(halves, panorama);
+    return bytes_of(halves);
+}
+
+std::vector<std::uint8_t> air_bytes(const Air& air) {
+    std::vector<std::uint16_t> halves;
+    append_halves(halves, air.molecule_airlight);
+    append_halves(halves, air.haze_airlight);
     return bytes_of(halves);
 }
 
@@ -125,7 +136,7 @@ void clear_old_bake(const std::filesystem::path& folder) {
     remove(folder / names::kCity);
     static const std::regex ours(
         "(p[0-9]+_(base\\.exr|svf\\.png)|i[0-9]+_(p[0-9]+(\\.exr|_sky\\.png|_sun\\.png|_indirect\\.png)|scales\\.bin|"
-        "indirect_scales\\.bin|sky\\.bin))(\\."
+        "indirect_scales\\.bin|sky\\.bin|air\\.bin))(\\."
         "part)?");
     std::vector<std::filesystem::path> old;
     for (const std::filesystem::directory_entry& entry :
@@ -207,6 +218,25 @@ Json findings_json(const FindingLog& findings) {
     return list;
 }
 
+Box3f bounds_of(const Scene& scene) {
+    return scene.bounds.is_empty() ? Box3f{Vec3f(0.0f), Vec3f(0.0f)} : scene.bounds;
+}
+
+Json air_json(const Air& air, const BakeOutput& output, std::size_t instant) {
+    return {{"turbidity", output.light.instants[instant].daylight.turbidity},
+            {"base_m", shortest(bounds_of(output.scene).lo.z)},
+            {"molecules_per_m", to_json(air.scattering.molecules)},
+            {"haze_per_m", to_json(air.scattering.haze)},
+            {"molecule_height_m", kMoleculeHeight},
+            {"haze_height_m", kHazeHeight},
+            {"airlight",
+             {{"uri", names::air(instant)},
+              {"columns", air.columns},
+              {"rows", air.rows},
+              {"format", "rgba16f"},
+              {"unit", "kcd/m2"}}}};
+}
+
 Json instant_json(const BakeOutput& output, std::size_t instant, double exposure) {
     const InstantDescription& description = output.description.instants[instant];
     Json pages = Json::array();
@@ -226,7 +256,9 @@ Json instant_json(const BakeOutput& output, std::size_t instant, double exposure
                      {"width", kPanoramaWidth},
                      {"height", kPanoramaHeight},
                      {"format", "rgba16f"},
-                     {"unit", "kcd/m2"}}}};
+                     {"unit", "kcd/m2"}}},
+                   {"land_kcd_m2", to_json(1e-3f * description.land_luminance)}};
+    if (description.air) json["air"] = air_json(*description.air, output, instant);
     json["scales"] = {{"uri", names::scales(instant)}};
     if (has_indirect(output.light)) json["indirect_scales"] = {{"uri", names::indirect_scales(instant)}};
     json["exposure_hint"] = exposure;
@@ -262,7 +294,7 @@ Json manifest_json(const BakeOutput& output, const std::vector<FileHash>& hashes
     Json views = Json::array();
     for (const BakeView& view : d.views)
         views.push_back({{"name", view.name}, {"position", to_json(view.position)}, {"target", to_json(view.target)}});
-    const Box3f bounds = output.scene.bounds.is_empty() ? Box3f{Vec3f(0.0f), Vec3f(0.0f)} : output.scene.bounds;
+    const Box3f bounds = bounds_of(output.scene);
     return {
         {"format", "skybake-bake"},
         {"version", 1},
@@ -349,6 +381,7 @@ WrittenBake write_bake(const std::filesystem::path& folder, const BakeOutput& ou
     for (std::size_t i = 0; i < instant_count; ++i) {
         files.push_back(names::scales(i));
         files.push_back(names::panorama(i));
+        if (description.instants[i].air) files.push_back(names::air(i));
         if (has_indirect(light)) files.push_back(names::indirect_scales(i));
         jobs.push_back(
             {1 + page_count, [&, i] {
@@ -356,6 +389,8 @@ WrittenBake write_bake(const std::filesystem::path& folder, const BakeOutput& ou
                  const std::vector<ChartScale> scales = chart_scales(light, i, output.atlas.charts.size());
                  write_file(folder / names::scales(i), scale_bytes(scales));
                  write_file(folder / names::panorama(i), panorama_bytes(description.instants[i].sky_panorama));
+                 if (description.instants[i].air)
+                     write_file(folder / names::air(i), air_bytes(*description.instants[i].air));
                  std::vector<float> indirect_scales;
                  if (has_indirect(light)) {
                      indirect_scales = indirect_scales_klx(light, i, output.atlas.charts.size());

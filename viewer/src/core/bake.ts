@@ -1,3 +1,4 @@
+import { parseAirlight, type Airlight } from './air';
 import { fetchBytes, type OnBytes } from './fetch';
 import type { Manifest } from './generated/manifest';
 import validateManifest from './generated/validate_manifest.js';
@@ -14,6 +15,8 @@ export interface InstantLight {
   /** One a chart: scale of the page of reflected light (klx); null in a bake without it. */
   indirectScales: Float32Array<ArrayBuffer> | null;
   panorama: Panorama;
+  /** Null in a bake without a sky. */
+  airlight: Airlight | null;
   pages: { sky: EncodedPage; sun: EncodedPage; indirect: EncodedPage | null }[];
 }
 
@@ -80,6 +83,7 @@ export class Bake {
     const instant = this.instant(index);
     const uris = [instant.scales.uri, instant.sky.panorama.uri, ...instant.pages.flatMap((page) => [page.sky, page.sun])];
     if (instant.indirect_scales) uris.push(instant.indirect_scales.uri);
+    if (instant.air) uris.push(instant.air.airlight.uri);
     for (const page of instant.pages) if (page.indirect) uris.push(page.indirect);
     let sum = 0;
     for (const uri of uris) {
@@ -103,12 +107,13 @@ export class Bake {
     };
     const scalesOf = (uri: string, count: number): Promise<Float32Array<ArrayBuffer>> =>
       this.fetch(uri, onBytes, signal).then((bytes) => parseScales(this.url(uri), bytes, count));
-    const [scales, indirectScales, panorama, pages] = await Promise.all([
+    const [scales, indirectScales, panorama, airlight, pages] = await Promise.all([
       scalesOf(instant.scales.uri, 2 * chartCount),
       instant.indirect_scales ? scalesOf(instant.indirect_scales.uri, chartCount) : null,
       this.fetch(instant.sky.panorama.uri, onBytes, signal).then((bytes) =>
         Panorama.fromBytes(this.url(instant.sky.panorama.uri), bytes, instant.sky.panorama.width, instant.sky.panorama.height),
       ),
+      instant.air ? this.loadAirlight(instant.air.airlight, onBytes, signal) : null,
       Promise.all(
         instant.pages.map(async (files, p) => {
           const [sky, sun, indirect] = await Promise.all([page(files.sky, p), page(files.sun, p), files.indirect ? page(files.indirect, p) : null]);
@@ -116,7 +121,11 @@ export class Bake {
         }),
       ),
     ]);
-    return { scales, indirectScales, panorama, pages };
+    return { scales, indirectScales, panorama, airlight, pages };
+  }
+
+  private async loadAirlight({ uri, columns, rows }: { uri: string; columns: number; rows: number }, onBytes: OnBytes, signal?: AbortSignal): Promise<Airlight> {
+    return parseAirlight(this.url(uri), await this.fetch(uri, onBytes, signal), columns, rows);
   }
 }
 

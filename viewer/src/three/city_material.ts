@@ -1,5 +1,6 @@
 import * as THREE from 'three';
 import type { Picture } from '../core/pictures';
+import { airShader, makeAirUniforms, type AirUniforms } from './air';
 
 const pictureNumber: Record<Picture, number> = { lit: 0, textures: 1, light: 2 };
 
@@ -7,8 +8,7 @@ const pictureNumber: Record<Picture, number> = { lit: 0, textures: 1, light: 2 }
 export const scalesWidth = 2048;
 
 /** Uniforms that all materials share by reference: a change is seen by all of them at the next frame. */
-export interface SharedUniforms {
-  [name: string]: THREE.IUniform;
+export interface SharedUniforms extends AirUniforms {
   uScales: THREE.IUniform<THREE.Texture | null>;
   uSunKlx: THREE.IUniform<THREE.Vector3>;
   uExposure: THREE.IUniform<number>;
@@ -29,6 +29,7 @@ export function makeSharedUniforms(): SharedUniforms {
     uSunKlx: { value: new THREE.Vector3() },
     uExposure: { value: 1 },
     uPicture: { value: 0 },
+    ...makeAirUniforms(),
   };
 }
 
@@ -66,6 +67,7 @@ uniform mat3 uMapTransform;
 out vec2 vUv;
 centroid out vec2 vLightUv;
 flat out vec3 vScale;
+out vec3 vPosition;
 #ifdef USE_COLOR
 out vec3 vTint;
 #endif
@@ -82,6 +84,7 @@ void main() {
   vLightUv = uv1;
   int chart = int(_chart + 0.5);
   vScale = texelFetch(uScales, ivec2(chart % ${scalesWidth}, chart / ${scalesWidth}), 0).rgb;
+  vPosition = position; // meshes stand in scene coordinates
   gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
 }
 `;
@@ -94,6 +97,7 @@ const fragmentShader = /* glsl */ `
 in vec2 vUv;
 centroid in vec2 vLightUv;
 flat in vec3 vScale;
+in vec3 vPosition;
 #ifdef USE_COLOR
 in vec3 vTint;
 #endif
@@ -113,6 +117,7 @@ uniform float uBaseAlpha;
 #endif
 layout(location = 0) out vec4 outColor;
 ${displayShader}
+${airShader}
 
 void main() {
   vec3 albedo = uBaseColor;
@@ -138,7 +143,13 @@ void main() {
   float sunCosine = textureLod(uSunPage, vLightUv, level).r * vScale.y;
   vec3 indirect = vScale.z > 0.0 ? textureLod(uIndirectPage, vLightUv, level).rgb * vScale.z : vec3(0.0);
   vec3 illuminance = sky + sunCosine * uSunKlx + indirect;
-  outColor = toDisplay(albedo * illuminance * RECIPROCAL_PI);
+  vec3 radiance = albedo * illuminance * RECIPROCAL_PI;
+  if (uPicture == ${pictureNumber.lit}) { // light alone is for comparing walls, near and far
+    vec3 ray = vPosition - cameraPosition;
+    float metres = length(ray);
+    radiance = throughAir(radiance, ray / max(metres, 1e-6), metres);
+  }
+  outColor = toDisplay(radiance);
 }
 `;
 

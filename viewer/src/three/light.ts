@@ -2,6 +2,7 @@ import * as THREE from 'three';
 import type { BakedInstant, EncodedPage, InstantLight } from '../core/bake';
 import { LoadError } from '../core/load_error';
 import { text } from '../core/text';
+import { applyAir } from './air';
 import type { PageUniforms, SharedUniforms } from './city_material';
 import { scalesWidth } from './city_material';
 
@@ -10,6 +11,7 @@ export interface LightTextures {
   scales: THREE.DataTexture;
   pages: { sky: THREE.Texture; sun: THREE.Texture; indirect: THREE.Texture | null }[];
   panorama: THREE.DataTexture;
+  air: { molecules: THREE.DataTexture; haze: THREE.DataTexture } | null;
   dispose(): void;
 }
 
@@ -27,19 +29,22 @@ export async function makeLightTextures(light: InstantLight): Promise<LightTextu
   );
   const scales = makeScalesTexture(light.scales, light.indirectScales);
   const { width, height, halves } = light.panorama;
-  const panorama = new THREE.DataTexture(halves, width, height, THREE.RGBAFormat, THREE.HalfFloatType);
-  panorama.minFilter = THREE.LinearFilter;
-  panorama.magFilter = THREE.LinearFilter;
-  panorama.wrapS = THREE.RepeatWrapping;
-  panorama.wrapT = THREE.ClampToEdgeWrapping;
-  panorama.needsUpdate = true;
+  const panorama = makeTurnTexture(halves, width, height);
+  const { airlight } = light;
+  const air = airlight && {
+    molecules: makeTurnTexture(airlight.molecules, airlight.columns, airlight.rows),
+    haze: makeTurnTexture(airlight.haze, airlight.columns, airlight.rows),
+  };
   return {
     scales,
     pages,
     panorama,
+    air,
     dispose() {
       scales.dispose();
       panorama.dispose();
+      air?.molecules.dispose();
+      air?.haze.dispose();
       for (const { sky, sun, indirect } of pages) {
         sky.dispose();
         sun.dispose();
@@ -53,11 +58,23 @@ export async function makeLightTextures(light: InstantLight): Promise<LightTextu
 export function applyLight(textures: LightTextures, instant: BakedInstant, shared: SharedUniforms, pages: readonly PageUniforms[]): void {
   shared.uScales.value = textures.scales;
   shared.uSunKlx.value.fromArray(instant.sun.normal_illuminance_klx);
+  if (instant.air && textures.air) applyAir(shared, instant.air, instant.sun.direction as [number, number, number], textures.air);
   pages.forEach((page, p) => {
     page.uSkyPage.value = textures.pages[p]?.sky ?? null;
     page.uSunPage.value = textures.pages[p]?.sun ?? null;
     page.uIndirectPage.value = textures.pages[p]?.indirect ?? null;
   });
+}
+
+/** RGBA half floats, bilinear, whose columns go round. */
+function makeTurnTexture(halves: Uint16Array<ArrayBuffer>, columns: number, rows: number): THREE.DataTexture {
+  const texture = new THREE.DataTexture(halves, columns, rows, THREE.RGBAFormat, THREE.HalfFloatType);
+  texture.minFilter = THREE.LinearFilter;
+  texture.magFilter = THREE.LinearFilter;
+  texture.wrapS = THREE.RepeatWrapping;
+  texture.wrapT = THREE.ClampToEdgeWrapping;
+  texture.needsUpdate = true;
+  return texture;
 }
 
 async function decodePage(page: EncodedPage): Promise<THREE.Texture> {

@@ -48,6 +48,7 @@ export class Viewer {
   private currentPicture: Picture = 'lit';
   private currentInstant = -1;
   private currentEv = 0;
+  private isAirSeen = true;
   private requestedInstant = -1;
   private loading: AbortController | null = null;
   private frameRequest: number | null = null;
@@ -110,10 +111,11 @@ export class Viewer {
       const old = this.light;
       this.light = light;
       applyLight(light, instant, this.shared, city.pages);
-      this.sky.apply(light.panorama, files.panorama, instant);
+      this.sky.apply(light.panorama, files.panorama, instant, bake.manifest.bounds.min[2] ?? 0);
       old?.dispose();
       if (!city.group.parent) this.scene.add(city.group);
       this.currentInstant = index;
+      this.shared.uHasAir.value = this.isAirSeen && this.hasAir;
       this.applyExposure();
       this.changed();
       return true;
@@ -137,6 +139,22 @@ export class Viewer {
     setPicture(this.shared, picture);
     this.applyExposure();
     this.changed();
+  }
+
+  /** Whether the air between the eye and the city is drawn, in bakes that know it. */
+  get air(): boolean {
+    return this.isAirSeen;
+  }
+
+  set air(isSeen: boolean) {
+    this.isAirSeen = isSeen;
+    this.shared.uHasAir.value = isSeen && this.hasAir;
+    this.changed();
+  }
+
+  /** Whether the instant on show has air. */
+  get hasAir(): boolean {
+    return this.bake !== null && this.currentInstant >= 0 && this.bake.instant(this.currentInstant).air !== undefined;
   }
 
   get ev(): number {

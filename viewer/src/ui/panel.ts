@@ -10,6 +10,7 @@ export interface PanelActions {
   view(index: number): void;
   ev(ev: number): void;
   copyLink(): void;
+  air(isSeen: boolean): void;
 }
 
 export interface PanelState {
@@ -18,6 +19,7 @@ export interface PanelState {
   mode: Mode;
   ev: number;
   exposure: number;
+  air: boolean;
 }
 
 export interface PanelContent {
@@ -40,6 +42,9 @@ export class Panel {
   private readonly viewSelect: HTMLSelectElement;
   private readonly evSlider: HTMLInputElement;
   private readonly evLabel: HTMLElement;
+  private readonly airSwitch: HTMLInputElement;
+  private readonly airLabel: HTMLElement;
+  private airNote: string | null = null;
   private readonly sunNote: HTMLElement;
   private shownInstant = 0;
 
@@ -82,6 +87,9 @@ export class Panel {
 
     const copyLink = element('button', { type: 'button', title: text.copyLinkHint }, [text.copyLink]);
     copyLink.addEventListener('click', () => actions.copyLink());
+    this.airSwitch = element('input', { type: 'checkbox', id: 'air', title: `${text.airHint} (F)` });
+    this.airSwitch.addEventListener('change', () => actions.air(this.airSwitch.checked));
+    this.airLabel = element('span', { class: 'label' });
 
     const hide = element('button', { type: 'button', title: `${text.hidePanel} (H)` }, [text.hidePanel]);
     hide.addEventListener('click', () => this.show(false));
@@ -103,6 +111,11 @@ export class Panel {
         element('label', { for: 'ev' }, [text.exposure]),
         element('div', { class: 'row' }, [this.evSlider, evReset]),
         this.evLabel,
+      ]),
+      element('fieldset', { class: 'field' }, [
+        element('legend', {}, [text.air]),
+        element('div', { class: 'row' }, [this.airSwitch, element('label', { for: 'air' }, [text.airSwitch])]),
+        this.airLabel,
       ]),
       element('p', { class: 'note' }, [text.baked(content.texelM)]),
     ]);
@@ -133,11 +146,19 @@ export class Panel {
     this.evSlider.disabled = !isExposed;
     this.evLabel.textContent = isExposed ? text.exposureValue(state.ev, state.exposure) : text.exposureUnused;
     this.evSlider.setAttribute('aria-valuetext', this.evLabel.textContent);
+    this.airSwitch.checked = state.air && this.airNote !== null;
+    this.airSwitch.disabled = state.picture !== 'lit' || this.airNote === null;
+    this.airLabel.textContent = this.airSwitch.disabled ? text.airUnused : this.airNote;
   }
 
   /** Marks the view that is shown, or none when the user moved on by themselves. */
   showView(index: number | null): void {
     this.viewSelect.value = index === null ? '' : String(index);
+  }
+
+  /** What is known of the air; null where there is none to draw. Shown with the next update. */
+  setAirNote(note: string | null): void {
+    this.airNote = note;
   }
 
   showSun(note: string): void {

@@ -5,9 +5,11 @@ import path from 'node:path';
 import { fileURLToPath } from 'node:url';
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+import { parseAirlight } from '../../src/core/air';
 import { srgbEncode } from '../../src/core/units';
 import { findChromium, launch, openPage } from '../support/chromium';
-import { fixtureBeam, fixtureInstants, whiteCard, writeFixture } from '../support/fixture';
+import { viewThrough } from '../support/air';
+import { fixtureAir, fixtureBeam, fixtureInstants, fixtureSun, whiteCard, writeFixture } from '../support/fixture';
 import { decodePng, encodePng } from '../support/png';
 import { serve, type Host } from '../support/static_host';
 import { canvas, dist, outFolder, whenReady } from '../support/walkthrough_page';
@@ -56,6 +58,7 @@ describe.skipIf(!chromium)('the walkthrough of the synthetic bake', () => {
     await page.evaluate(([cx, cy, cz]) => {
       window.skybake!.setToneMapping('none');
       window.skybake!.setPicture('lit');
+      window.skybake!.setAir(false);
       window.skybake!.setCamera([cx!, cy! - 3, cz!], [cx!, cy!, cz!]);
     }, [x, y, z]);
     const exposure = await page.evaluate(() => {
@@ -67,6 +70,7 @@ describe.skipIf(!chromium)('the walkthrough of the synthetic bake', () => {
     await page.evaluate(() => {
       window.skybake!.setToneMapping('agx');
       window.skybake!.setExposure(0);
+      window.skybake!.setAir(true);
     });
     for (let c = 0; c < 3; ++c) {
       // L = (E_sky + cos·E_sun) / π for albedo 1, then exposure, sRGB, 8 bit.
@@ -82,6 +86,52 @@ describe.skipIf(!chromium)('the walkthrough of the synthetic bake', () => {
       }
       expect(Math.abs(mean - expected)).toBeLessThanOrEqual(1);
     }
+  });
+
+  test('the same wall through the air is what the C++ formula gives', async () => {
+    const tables = parseAirlight('air.bin', new Uint8Array(fs.readFileSync(path.join(folder, fixtureAir(0).airlight.uri))), 4, 6);
+    for (const eye of [[-20, -110, 2], [-45, -90, 30]] as const) {
+      const pixel = await page.evaluate(([from, to, px, py]) => {
+        const hook = window.skybake!;
+        hook.setToneMapping('none');
+        hook.setPicture('lit');
+        hook.setCamera(from, to);
+        hook.setExposure(-2.5);
+        const block = hook.readPixels(px, py, 4, 4);
+        const value = { exposure: hook.exposure(), mean: [0, 1, 2].map((c) => block.reduce((sum, v, i) => (i % 4 === c ? sum + v / 16 : sum), 0)) };
+        hook.setToneMapping('agx');
+        hook.setExposure(0);
+        return value;
+      }, [eye, whiteCard.center, size.width / 2 - 2, size.height / 2 - 2] as const);
+      const ray = whiteCard.center.map((v, i) => v - eye[i]!) as [number, number, number];
+      const metres = Math.hypot(...ray);
+      const seen = viewThrough(fixtureAir(0), tables, fixtureSun, eye[2], ray.map((v) => v / metres) as [number, number, number], metres);
+      for (const c of [0, 1, 2] as const) {
+        const radiance = (whiteCard.skyKlx[c] + whiteCard.sunCosine * fixtureBeam[c]) / Math.PI;
+        const expected = 255 * srgbEncode((radiance * seen[c]!.transmittance + seen[c]!.inscatter) * pixel.exposure);
+        const withoutAir = 255 * srgbEncode(radiance * pixel.exposure);
+        expect(Math.abs(expected - withoutAir)).toBeGreaterThan(3); // else the test would see nothing
+        expect(Math.abs(pixel.mean[c]! - expected)).toBeLessThanOrEqual(1);
+      }
+    }
+  });
+
+  test('the switch takes the air away and brings it back, and the link remembers', async () => {
+    await page.evaluate(() => {
+      window.skybake!.setPicture('lit');
+      window.skybake!.setCamera([70, -85, 55], [0, 0, 4]);
+    });
+    const withAir = await canvas(page, size.width, size.height);
+    await page.getByLabel('Haze over distance').uncheck();
+    expect(differingShare(withAir, await canvas(page, size.width, size.height))).toBeGreaterThan(0.3);
+    await page.waitForTimeout(500);
+    expect(page.url()).toContain('&a=0');
+    await page.locator('canvas').focus();
+    await page.keyboard.press('f');
+    expect(differingShare(withAir, await canvas(page, size.width, size.height))).toBe(0);
+    await page.keyboard.press('3');
+    expect(await page.getByLabel('Haze over distance').isDisabled()).toBe(true);
+    await page.keyboard.press('1');
   });
 
   test.each([
