@@ -30,7 +30,6 @@ struct BounceOptions {
 
 /// --indirect, --bounces, --photons, --nearest, --area, --feelers and --paths.
 void add_bounce_options(CLI::App* verb, BounceOptions& options);
-void add_point_options(CLI::App* verb, BounceOptions& options);
 
 /// Throws InputError for a method that there is not, naming the nearest.
 Indirect indirect_of(const BounceOptions& options);

@@ -141,7 +141,6 @@ void add_probe(CLI::App& app, Program& program) {
     add_city_options(verb, options->city);
     add_light_options(verb, options->light);
     add_bounce_options(verb, options->bounce);
-    add_point_options(verb, options->bounce);
     add_lamp_options(verb, options->lamps);
     verb->add_option("--points", options->points, "CSV with the points")->required();
     verb->add_option("-o,--output", options->output, "CSV to write; without it, stdout");

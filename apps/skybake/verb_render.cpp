@@ -189,6 +189,17 @@ FalseColour scale_of(const RenderOptions& options, const Picture& measure, Pictu
     return scale;
 }
 
+/// All parts, less those that the link switches off; empty when it switches none off.
+io::PartFactors parts_of(const ViewLink& link, const std::vector<std::string>& known) {
+    io::PartFactors parts;
+    if (link.off.empty()) return parts;
+    for (const std::string& name : known) {
+        const bool is_off = std::find(link.off.begin(), link.off.end(), name) != link.off.end();
+        parts.emplace_back(name, is_off ? 0.0f : 1.0f);
+    }
+    return parts;
+}
+
 std::string legend_title(PictureKind kind, const io::PartFactors& parts) {
     if (kind == PictureKind::sky_view) return "Sky view factor";
     if (parts.empty()) return "Illuminance, lx";
@@ -258,7 +269,9 @@ int run_render(const RenderOptions& options, const CommonOptions& common) {
                              : link && link->kind     ? *link->kind
                                                       : PictureKind::lit;
     check_use(options, kind);
-    const io::PartFactors parts = parts_of(options.parts, io::light_parts(bake, instant));
+    const std::vector<std::string> known = io::light_parts(bake, instant);
+    const io::PartFactors parts =
+        options.parts.empty() && link ? parts_of(*link, known) : parts_of(options.parts, known);
     const PictureScene scene = io::read_city(bake);
     if (scene.triangles.empty())
         throw InputError(fmt::format("{}: the city has no surfaces. Bake again.", options.folder));

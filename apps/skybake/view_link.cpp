@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <map>
@@ -77,7 +78,7 @@ ViewLink parse_view_link(const std::string& link) {
     const std::optional<Vec3f> position = vec3_of(field("p").value_or(""));
     const std::optional<Vec3f> target = vec3_of(field("t").value_or(""));
     if (!position || !target || *position == *target) fail("names no place to look from (p) and to (t)");
-    ViewLink view{*position, *target, {}, {}, {}, {}};
+    ViewLink view{*position, *target, {}, {}, {}, {}, {}};
     if (const auto picture = field("s")) {
         static const std::map<std::string, PictureKind> kKinds = {
             {"lit", PictureKind::lit}, {"textures", PictureKind::textures}, {"light", PictureKind::light}};
@@ -96,6 +97,13 @@ ViewLink parse_view_link(const std::string& link) {
     if (const auto air = field("a")) {
         if (*air != "0" && *air != "1") fail(fmt::format("the air '{}' is neither 0 nor 1", *air));
         view.has_air = *air == "1";
+    }
+    if (const auto off = field("off")) {
+        for (std::string_view left = *off; !left.empty();) {
+            const std::string_view part = left.substr(0, left.find(','));
+            view.off.emplace_back(part);
+            left.remove_prefix(std::min(part.size() + 1, left.size()));
+        }
     }
     return view;
 }

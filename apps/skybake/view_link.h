@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/vec.h"
 #include "render/display.h"
@@ -16,8 +17,9 @@ struct ViewLink {
     Vec3f target{0.0f};
     std::optional<PictureKind> kind;
     std::optional<std::size_t> instant;
-    std::optional<float> ev;      // stops
-    std::optional<bool> has_air;  // the air between the eye and the city is seen
+    std::optional<float> ev;       // stops
+    std::optional<bool> has_air;   // the air between the eye and the city is seen
+    std::vector<std::string> off;  // parts of the light that are switched off
 };
 
 /// Reads a whole address or the part from its '#' on. Fields that it does not know are left to newer walkthroughs.

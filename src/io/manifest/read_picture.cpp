@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -27,8 +28,13 @@ SurfaceLight read_pages(const StoredBake& bake, const Read& read) {
     return light;
 }
 
-std::vector<Rgb> read_layer(const StoredBake& bake, std::size_t instant, std::size_t page, const std::string& prefix) {
-    const std::filesystem::path& path = bake.instants[instant].pages[page];
+// Lamps shine at all instants alike: their light stands with what all instants share.
+constexpr const char* kLamps = "lamps";
+
+/// One part of the light, or all of it when `part` is empty.
+std::vector<Rgb> read_layer(const StoredBake& bake, std::size_t instant, std::size_t page, const std::string& part) {
+    const std::filesystem::path& path = part == kLamps ? bake.pages[page].base : bake.instants[instant].pages[page];
+    const std::string prefix = part.empty() ? "" : part + ".";
     ExrReader reader(path);
     check_size(reader, path, bake.pages[page]);
     std::vector<Rgb> texels(static_cast<std::size_t>(reader.width()) * static_cast<std::size_t>(reader.height()));
@@ -67,8 +73,10 @@ std::vector<Rgb> read_half_pixels(const std::filesystem::path& path, int width, 
 
 std::vector<std::string> light_parts(const StoredBake& bake, std::size_t instant) {
     if (bake.pages.empty()) return {};
-    const ExrReader reader(bake.instants[instant].pages.front());
-    return reader.layers();
+    std::vector<std::string> parts = ExrReader(bake.instants[instant].pages.front()).layers();
+    const std::vector<std::string> shared = ExrReader(bake.pages.front().base).layers();
+    if (std::find(shared.begin(), shared.end(), kLamps) != shared.end()) parts.emplace_back(kLamps);
+    return parts;
 }
 
 PictureScene read_city(const StoredBake& bake) {
@@ -82,7 +90,7 @@ SurfaceLight read_illuminance(const StoredBake& bake, std::size_t instant, const
         if (parts.empty()) return read_layer(bake, instant, page, "");
         std::vector<Rgb> sum;
         for (const auto& [name, factor] : parts) {
-            const std::vector<Rgb> layer = read_layer(bake, instant, page, name + ".");
+            const std::vector<Rgb> layer = read_layer(bake, instant, page, name);
             sum.resize(layer.size(), Rgb(0.0f));
             for (std::size_t t = 0; t < layer.size(); ++t) sum[t] += factor * layer[t];
         }
