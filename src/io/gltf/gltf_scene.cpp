@@ -40,7 +40,8 @@ class SceneReader {
         is_seen_.assign(count, false);
         // Depth first without recursion: chains of strangers may be long.
         std::vector<std::pair<std::size_t, glm::dmat4>> open;
-        const std::vector<std::size_t> roots = roots_of(nodes, count);
+        const GltfJson* scene = scene_nodes();
+        const std::vector<std::size_t> roots = scene ? listed(*scene) : roots_of(nodes, count);
         for (std::size_t i = roots.size(); i-- > 0;) open.emplace_back(roots[i], glm::dmat4(1.0));
         while (!open.empty()) {
             const auto [index, parent] = open.back();
@@ -53,14 +54,15 @@ class SceneReader {
             is_seen_[index] = true;
             try {
                 const glm::dmat4 to_asset = parent * matrix_of(nodes[index]);
-                const GltfJson& children = member(nodes[index], "children");
-                for (std::size_t i = children.is_array() ? children.size() : 0; i-- > 0;) {
-                    if (children[i].is_number_unsigned()) open.emplace_back(children[i].get<std::size_t>(), to_asset);
-                }
+                const std::vector<std::size_t> children = listed(member(nodes[index], "children"));
+                for (std::size_t i = children.size(); i-- > 0;) open.emplace_back(children[i], to_asset);
                 if (const auto mesh = index_at(nodes[index], "mesh")) add(nodes[index], index, *mesh, to_asset, where);
             } catch (const GltfFault& thrown) {
                 fault(where, thrown.what());
             }
+        }
+        for (std::size_t n = 0; n < count && !scene; ++n) {
+            if (!is_seen_[n]) fault(fmt::format("{}: nodes[{}]", name_, n), "hangs on itself, or on nodes that do");
         }
         return std::move(instances_);
     }
@@ -70,26 +72,31 @@ class SceneReader {
         findings_.add(make_finding("SB101", where, fmt::format("{}; left out.", what)));
     }
 
-    std::vector<std::size_t> roots_of(const GltfJson& nodes, std::size_t count) {
-        std::vector<std::size_t> roots;
+    /// The nodes of the scene that is to be shown; none when the file has no scene.
+    const GltfJson* scene_nodes() const {
         const GltfJson& scenes = member(document_.json(), "scenes");
         const GltfJson& chosen = member(document_.json(), "scene");
         const std::size_t scene = chosen.is_number_unsigned() ? chosen.get<std::size_t>() : 0;
-        if (scenes.is_array() && scene < scenes.size()) {
-            const GltfJson& list = member(scenes[scene], "nodes");
-            for (std::size_t i = 0; list.is_array() && i < list.size(); ++i) {
-                if (list[i].is_number_unsigned()) roots.push_back(list[i].get<std::size_t>());
-            }
-            return roots;
+        return scenes.is_array() && scene < scenes.size() ? &member(scenes[scene], "nodes") : nullptr;
+    }
+
+    static std::vector<std::size_t> listed(const GltfJson& list) {
+        std::vector<std::size_t> nodes;
+        for (std::size_t i = 0; list.is_array() && i < list.size(); ++i) {
+            if (list[i].is_number_unsigned()) nodes.push_back(list[i].get<std::size_t>());
         }
+        return nodes;
+    }
+
+    /// Without a scene: the nodes that are nobody's child.
+    static std::vector<std::size_t> roots_of(const GltfJson& nodes, std::size_t count) {
         std::vector<bool> is_child(count, false);
         for (std::size_t n = 0; n < count; ++n) {
-            const GltfJson& children = member(nodes[n], "children");
-            for (std::size_t i = 0; children.is_array() && i < children.size(); ++i) {
-                if (children[i].is_number_unsigned() && children[i].get<std::size_t>() < count)
-                    is_child[children[i].get<std::size_t>()] = true;
+            for (const std::size_t child : listed(member(nodes[n], "children"))) {
+                if (child < count) is_child[child] = true;
             }
         }
+        std::vector<std::size_t> roots;
         for (std::size_t n = 0; n < count; ++n) {
             if (!is_child[n]) roots.push_back(n);
         }
