@@ -73,5 +73,6 @@ void add_view(CLI::App& app, Program& program);
 void add_sun(CLI::App& app, Program& program);
 void add_sky(CLI::App& app, Program& program);
 void add_demo(CLI::App& app, Program& program);
+void add_study(CLI::App& app, Program& program);
 
 }  // namespace skybake::cli

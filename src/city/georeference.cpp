@@ -206,14 +206,17 @@ double enclosed_volume(const CityModel& city) {
     return volume;
 }
 
-/// Moves all vertices to a transverse Mercator of scale 1 about `center_degrees`. `to_geographic` takes x east, y
-/// north.
+/// A transverse Mercator of scale 1 about `center_degrees`.
+std::string local_mercator(const Vec2d& center_degrees, const Ellipsoid& ellipsoid) {
+    return fmt::format("+proj=tmerc +lat_0={:.12f} +lon_0={:.12f} +k=1 +x_0=0 +y_0=0 +a={} +rf={}", center_degrees.y,
+                       center_degrees.x, ellipsoid.a,
+                       ellipsoid.inverse_flattening == 0.0 ? 1e30 : ellipsoid.inverse_flattening);
+}
+
+/// Moves all vertices to the local transverse Mercator. `to_geographic` takes x east, y north.
 bool project_to_metres(PJ_CONTEXT* context, CityModel& city, PJ* to_geographic, bool swap, double z_unit,
                        const Vec2d& center_degrees, const Ellipsoid& ellipsoid) {
-    const std::string definition = fmt::format(
-        "+proj=tmerc +lat_0={:.12f} +lon_0={:.12f} +k=1 +x_0=0 +y_0=0 +a={} +rf={}", center_degrees.y, center_degrees.x,
-        ellipsoid.a, ellipsoid.inverse_flattening == 0.0 ? 1e30 : ellipsoid.inverse_flattening);
-    const PjPtr mercator(proj_create(context, definition.c_str()));
+    const PjPtr mercator(proj_create(context, local_mercator(center_degrees, ellipsoid).c_str()));
     if (!mercator) return false;
     for (CityObject& object : city.objects) {
         for (Vec3d& p : object.geometry.vertices) {
@@ -312,6 +315,7 @@ Georeference georeference(CityModel& city, FindingLog& findings) {
     result.site = Site{radians_from_degrees(site.y), radians_from_degrees(site.x), box.lo.z};
     if (is_degrees) {
         if (project_to_metres(context, city, nullptr, swap, 1.0, degrees, ellipsoid)) {
+            result.coordinate_crs = local_mercator(degrees, ellipsoid) + " +units=m +type=crs";
             add("SB301",
                 fmt::format(
                     "coordinates in degrees of {} were projected to a transverse Mercator about {:.6f} N {:.6f} E.",
@@ -319,6 +323,7 @@ Georeference georeference(CityModel& city, FindingLog& findings) {
         }
         return result;
     }
+    result.coordinate_crs = code.empty() ? city.crs : code;
     const PjPtr from_geodetic = transformation(context, geodetic.get(), horizontal.get());
     if (!from_geodetic) return result;
     const LocalScale scale = local_scale(from_geodetic.get(), degrees, ellipsoid);
@@ -332,6 +337,7 @@ Georeference georeference(CityModel& city, FindingLog& findings) {
             z_unit = axis_unit(context, vertical.get(), 0);
     }
     if (project_to_metres(context, city, to_geodetic.get(), false, z_unit, degrees, ellipsoid)) {
+        result.coordinate_crs = local_mercator(degrees, ellipsoid) + " +units=m +type=crs";
         add("SB302", fmt::format("{} shows a metre as {:.4f} here; coordinates were projected to a transverse Mercator "
                                  "about {:.6f} N {:.6f} E.",
                                  result.crs_name, scale.north, degrees.y, degrees.x));

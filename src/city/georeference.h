@@ -19,6 +19,9 @@ struct Georeference {
     double convergence_rad = 0.0;
     std::string crs_name;  // "EPSG:31256 MGI / Austria GK East", or empty
     std::string crs_code;  // "EPSG:31256", or empty
+    /// The system of the coordinates as they are now: the code, or, where they were projected to metres, the definition
+    /// that PROJ reads; empty when unknown.
+    std::string coordinate_crs;
 };
 
 /// Brings the city into metres that are true metres and tells where it lies. A projected CRS stays as it is. Geographic
