@@ -11,6 +11,7 @@
 #include "base/threads.h"
 #include "city_options.h"
 #include "io/epw/read_epw.h"
+#include "io/file/replace_file.h"
 #include "io/points/points_csv.h"
 #include "io/rules/read_rule.h"
 #include "program.h"
@@ -35,6 +36,7 @@ struct Options {
     int year = 2026;
     double scan_s = 120.0;
     int sky_directions = 1024;
+    double ground_albedo = 0.2;
     std::vector<fs::path> added, before;
     std::vector<std::string> plan, removed;
     bool leaves_out_cells = false;
@@ -118,6 +120,7 @@ StudyRequest request_of(const Options& options, FindingLog& weather_findings) {
     if (!options.timezone.empty()) request.settings.timezone = options.timezone;
     request.settings.scan_s = options.scan_s;
     request.settings.sky_directions = options.sky_directions;
+    request.settings.ground_albedo = options.ground_albedo;
     return request;
 }
 
@@ -225,6 +228,9 @@ void add_time_options(CLI::App* verb, Options& options) {
         ->capture_default_str()
         ->check(CLI::Range(2.0, 3600.0));
     verb->add_option("--weather", options.weather, "EPW file, for irradiation and probable sunlight");
+    verb->add_option("--ground-albedo", options.ground_albedo, "of the open ground of reflected_kwh_m2")
+        ->capture_default_str()
+        ->check(CLI::Range(0.0, 1.0));
     verb->add_option("--sky-samples", options.sky_directions, "directions to the sky for each normal")
         ->capture_default_str()
         ->check(CLI::Range(16, 65536));

@@ -83,7 +83,7 @@ void check_rule_has_its_data(const StudyRequest& request) {
         throw InputError(fmt::format(
             "rule {}: looks at the shadow of the plan alone. Say what the plan is by --add FILE or --plan ID.", rule.id));
     }
-    const bool needs_weather = rule.needs_weather || wants(rule, {Metric::irradiation_kwh_m2});
+    const bool needs_weather = rule.needs_weather || wants(rule, {Metric::irradiation_kwh_m2, Metric::reflected_kwh_m2});
     if (needs_weather && !request.weather)
         throw InputError(fmt::format("rule {}: needs weather. Pass --weather FILE.epw.", rule.id));
 }
@@ -194,7 +194,8 @@ StudyResult study_city(StudyRequest request, Progress& progress) {
     check_receivers(set, request);
 
     std::optional<YearLight> year;
-    if (wants(request.rule, {Metric::sunshine_pct, Metric::winter_sunshine_pct, Metric::irradiation_kwh_m2})) {
+    if (wants(request.rule, {Metric::sunshine_pct, Metric::winter_sunshine_pct, Metric::irradiation_kwh_m2,
+                             Metric::reflected_kwh_m2})) {
         year = request.weather ? year_light(*request.weather, settings.site, settings.convergence_rad, request.period)
                                : cloudless_year(settings.year, settings.site, settings.convergence_rad);
         settings.year_light = &*year;

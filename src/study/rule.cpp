@@ -7,7 +7,8 @@ namespace skybake {
 namespace {
 constexpr std::array<const char*, kMetricCount> kMetricNames{
     "sun_hours",         "longest_sun_hours", "shadow_hours",        "longest_shadow_hours", "new_shadow_hours",   "sky_view_factor",
-    "sky_component_pct", "sunshine_pct",      "winter_sunshine_pct", "irradiation_kwh_m2",   "light_incidence_deg"};
+    "sky_component_pct", "sunshine_pct",      "winter_sunshine_pct", "irradiation_kwh_m2",   "reflected_kwh_m2",
+    "light_incidence_deg"};
 }
 
 const char* name_of(Metric metric) {

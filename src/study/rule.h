@@ -23,9 +23,10 @@ enum class Metric : std::uint8_t {
     sunshine_pct,       // "APSH": of the year's expected sunshine
     winter_sunshine_pct,
     irradiation_kwh_m2,  // beam and sky
+    reflected_kwh_m2,    // by open level ground: StudySettings::ground_albedo
     light_incidence_deg
 };
-inline constexpr int kMetricCount = 11;
+inline constexpr int kMetricCount = 12;
 
 /// "sun_hours", …
 const char* name_of(Metric metric);

@@ -82,6 +82,14 @@ void add_static(StateColumns& columns, Study& study, const Rule& rule, const Stu
         for (std::size_t i = 0; i < sky_energy.size(); ++i) sky_energy[i] += sun.beam_kwh_m2[i];
         columns.add(Metric::irradiation_kwh_m2, std::move(sky_energy));
     }
+    if (columns.wants(Metric::reflected_kwh_m2)) {
+        // An open, level, diffuse ground: ρ G (1 − cos β)/2 for a surface tilted by β (Liu & Jordan 1963).
+        const double leaving = settings.ground_albedo * settings.year_light->global_kwh_m2;
+        std::vector<float> reflected;
+        for (const Sample& s : samples)
+            reflected.push_back(static_cast<float>(0.5 * leaving * (1.0 - static_cast<double>(s.normal.z))));
+        columns.add(Metric::reflected_kwh_m2, std::move(reflected));
+    }
     if (columns.wants(Metric::light_incidence_deg)) {
         LightIncidence incidence = light_incidence(samples, origin, *city.rays, rule.swivel_deg, progress);
         study.rays += incidence.rays;

@@ -55,6 +55,7 @@ struct StudySettings {
     std::optional<std::string> timezone;
     double scan_s = 120.0;
     int sky_directions = 1024;
+    double ground_albedo = 0.2;            // of reflected_kwh_m2
     const YearLight* year_light = nullptr;  // for sunshine and irradiation
 };
 

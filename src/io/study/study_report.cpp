@@ -94,6 +94,7 @@ json study_report(const Rule& rule, const Study& study, const std::vector<Group>
                      {"step_min", rule.sampled ? json(rule.sampled->step_s / 60.0) : json()},
                      {"min_elevation_deg", rule.min_elevation_deg},
                      {"sky_directions", s.sky_directions},
+                     {"ground_albedo", s.ground_albedo},
                      {"cell_m", facts.receivers.cell_m},
                      {"height_m", facts.receivers.height_m},
                      {"storey_height_m", facts.receivers.storey_height_m},
