@@ -35,7 +35,7 @@ struct Options {
     std::string days, step, site, timezone;
     int year = 2026;
     double scan_s = 120.0;
-    int sky_directions = 1024;
+    int sky_directions = 4096;
     double ground_albedo = 0.2;
     std::vector<fs::path> added, before;
     std::vector<std::string> plan, removed;

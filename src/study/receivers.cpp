@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "study/ground_cells.h"
 #include "study/surface_cells.h"
@@ -13,15 +14,33 @@ namespace {
 /// The underside of a building so low above the ground hides what nobody walks on.
 constexpr float kCrawlM = 1.0f;
 
+/// A wall so near to another is a party wall.
+constexpr float kTouchingM = 0.1f;
+
+/// One of eight directions at 45° about the normal reaches the sky.
+bool sees_sky(const Vec3f& origin, const Vec3f& normal, const RayScene& rays) {
+    const Vec3f aside = std::abs(normal.z) < 0.9f ? Vec3f(0, 0, 1) : Vec3f(1, 0, 0);
+    const Vec3f u = glm::normalize(glm::cross(aside, normal)), v = glm::cross(normal, u);
+    for (int k = 0; k < 8; ++k) {
+        const float turn = static_cast<float>(kPi / 4.0) * static_cast<float>(k);
+        const Vec3f direction = glm::normalize(normal + std::cos(turn) * u + std::sin(turn) * v);
+        if (direction.z > 0.0f && !rays.is_occluded(origin, direction)) return true;
+    }
+    return false;
+}
+
 bool is_enclosed(const Sample& sample, const Scene& scene, const RayScene& rays) {
     const Vec3f origin = Vec3f(sample.position - scene.origin) + rays.surface_offset() * sample.normal;
     const std::optional<Hit> ahead = rays.first_hit(origin, sample.normal);
-    if (ahead && ahead->is_back_face) return true;
+    if (ahead && (ahead->is_back_face || ahead->distance < kTouchingM)) return true;
     const std::optional<Hit> above = rays.first_hit(origin, {0.0f, 0.0f, 1.0f});
     if (!above) return false;
     const Face& face = scene.faces[scene.triangle_face[above->triangle].index()];
-    if (is_ground(scene.objects[face.object].type)) return above->is_back_face;
-    return face.type == SurfaceType::ground && !above->is_back_face && above->distance < kCrawlM;
+    // Within a row of houses the ray ahead meets two party walls in one place, of which either may be hit. The roof
+    // above tells; but seen from below it may be an eave, under which a wall sees the sky.
+    if (above->is_back_face)
+        return is_ground(scene.objects[face.object].type) || !sees_sky(origin, sample.normal, rays);
+    return face.type == SurfaceType::ground && above->distance < kCrawlM;
 }
 
 /// Removes enclosed samples; free points stay, wherever the user put them.

@@ -63,21 +63,21 @@ struct StudyPoint {
 };
 
 struct ReceiverOptions {
-    std::vector<ReceiverKind> kinds;
+    std::vector<ReceiverKind> kinds = {};
     double cell_m = 1.0;           // at most this long along each side of a cell
     double height_m = 0.0;         // of ground and polygon samples above the ground
     double storey_height_m = 3.0;  // façades are cut at whole storeys above the building's lowest wall point
-    std::vector<AreaPolygon> polygons;
-    std::vector<StudyPoint> points;
-    std::vector<std::string> excluded_objects;  // ids whose surfaces are no receivers, although they throw shadows
+    std::vector<AreaPolygon> polygons = {};
+    std::vector<StudyPoint> points = {};
+    std::vector<std::string> excluded_objects = {};  // ids whose surfaces are no receivers, although they throw shadows
 };
 
 /// The receivers of a scene, in the order ground, polygons, roofs, façades, windows, points, and by object, surface and
 /// storey within. Façades are the polygons of a building that share edges and a plane (1°, 2 cm); surfaces without
 /// semantics count as walls where they stand within 10° of upright, as roofs where they face up. A cell that a surface
-/// fills in part has the area of that part and its centroid as point. Cells that lie within a body are left out: those
-/// that see an inner side along their normal, an inner side of the ground above, or the underside of a building within
-/// 1 m above (`ReceiverSet::enclosed`). Parallel; the same for any number of threads.
+/// fills in part has the area of that part and its centroid as point. Cells that lie within a body are left out
+/// (`ReceiverSet::enclosed`): those that see an inner side along their normal, or anything within 10 cm; an inner side of
+/// the ground above, or of a roof without seeing the sky; or the underside of a building within 1 m above. Parallel; the same for any number of threads.
 ReceiverSet make_receivers(const Scene& scene, const RayScene& rays, const ReceiverOptions& options);
 
 /// Height of the ground at the centre of each cell of a lattice over `lo`…`hi` (map coordinates), the highest where

@@ -50,7 +50,8 @@ Judgement judge(const Criterion& criterion, double value, std::optional<double> 
         const double kept = value - *criterion.or_share_of_before * *before;
         margin = std::max(margin, criterion.at_least ? kept : -kept);
     }
-    if (margin > criterion.tolerance) return {Verdict::pass, margin};
+    const bool is_no_worse = criterion.or_share_of_before && before && value >= *before;
+    if (margin > criterion.tolerance || is_no_worse) return {Verdict::pass, margin};
     return {margin < -criterion.tolerance ? Verdict::fail : Verdict::borderline, margin};
 }
 

@@ -93,7 +93,8 @@ struct Judgement {
     Verdict verdict = Verdict::none;
     double margin = 0.0;
 };
-/// `before` is the value of the former state, where there is one.
+/// `before` is the value of the former state, where there is one. Where a share of it is enough, a value that is no worse
+/// than it passes.
 Judgement judge(const Criterion& criterion, double value, std::optional<double> before);
 
 }  // namespace skybake

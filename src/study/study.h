@@ -54,7 +54,7 @@ struct StudySettings {
     int year = 2026;
     std::optional<std::string> timezone;
     double scan_s = 120.0;
-    int sky_directions = 1024;
+    int sky_directions = 4096;
     double ground_albedo = 0.2;            // of reflected_kwh_m2
     const YearLight* year_light = nullptr;  // for sunshine and irradiation
 };

@@ -28,9 +28,9 @@ struct SunWindow {
 };
 
 struct SunDayOptions {
-    SunWindow window;
+    SunWindow window = {};
     double min_elevation_deg = 0.0;       // geometric elevation below which the sun does not count
-    std::optional<std::string> timezone;  // IANA name; civil and standard clocks need it
+    std::optional<std::string> timezone = std::nullopt;  // IANA name; civil and standard clocks need it
 };
 
 /// A span of whole seconds after SunDay::begin.

@@ -52,7 +52,7 @@ struct SunIntervalOptions {
     /// The sun counts at this angle above the surface's plane, degrees.
     double min_incidence_deg = 0.0;
     /// Instead of the exact crossings: only the instants begin, begin + step, … of each span of the day.
-    std::optional<SampledConstruction> sampled;
+    std::optional<SampledConstruction> sampled = std::nullopt;
 };
 
 /// The intervals of direct sun. Each packet is traced at the steps of the scan; where its mask of sunny samples changes,

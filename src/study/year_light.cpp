@@ -17,8 +17,8 @@ namespace {
 constexpr int kParts = 4;  // of an hour of weather
 constexpr int kWidth = 144, kHeight = 72;
 constexpr double kSunshineWM2 = 120.0;
-/// Declinations from −23.45° to 23.45° in 12 steps; hour angles from −180° on in 48.
-constexpr int kDeclinations = 13, kHourAngles = 48;
+/// Declinations from −23.45° to 23.45° in 12 steps; hour angles from −180° on in 96.
+constexpr int kDeclinations = 13, kHourAngles = 96;
 constexpr double kLastDeclinationRad = 23.45 * kPi / 180.0;
 
 /// Direction of the lattice's place, without refraction. Based on: Iqbal, "An introduction to solar radiation", 1983,

@@ -60,7 +60,7 @@ struct YearSun {
     std::uint64_t rays = 0;
 };
 
-/// Visibility is traced to the lattice's nodes (declination every 3.9°, hour angle every 7.5°) and taken as bilinear between
+/// Visibility is traced to the lattice's nodes (declination every 3.9°, hour angle every 3.75°) and taken as bilinear between
 /// them; cosine and horizon of each sample's surface are those of each moment. Error: tests/study/year_light_test.cpp.
 /// Parallel; the same for any number of threads.
 YearSun year_sun(std::span<const Sample> samples, const Vec3d& scene_origin, const RayScene& rays, const YearLight& year,

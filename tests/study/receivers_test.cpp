@@ -65,6 +65,14 @@ TEST(Receivers, PartyWallsAreNoFacades) {
     EXPECT_NEAR(area_of(set), 9.0 * (5 + 5 + 8) + 6.0 * (5 + 5 + 8) + 3.0 * 8, 1e-3);
 }
 
+/// In a row of three, the middle house's party walls see, through the neighbour, two walls in one place.
+TEST(Receivers, RowsOfHousesHaveTwoFacadesEach) {
+    QuadScene quads;
+    quads.ground(40).box({-15, -4, 0}, {-5, 4, 6}).box({-5, -4, 0}, {5, 4, 6}).box({5, -4, 0}, {15, 4, 6});
+    quads.box({15, -4, 0}, {25, 4, 6});
+    EXPECT_NEAR(area_of(receivers(quads, {.kinds = {ReceiverKind::facade}})), 6.0 * (2 * 40 + 2 * 8), 1e-3);
+}
+
 TEST(Receivers, PolygonsHoldTheCellsInThem) {
     QuadScene quads;
     quads.ground(20);

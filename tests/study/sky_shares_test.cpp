@@ -15,7 +15,7 @@ struct Vessel {
     Scene scene;
     RayScene rays;
     SilentProgress silent;
-    SkyShares shares(const Sample& sample, int directions = 1024) {
+    SkyShares shares(const Sample& sample, int directions = 4096) {
         return sky_shares({&sample, 1}, scene.origin, rays, directions, nullptr, silent);
     }
 };
@@ -48,6 +48,10 @@ TEST(SkyShares, VerticalSkyComponentBehindEndlessObstructions) {
         EXPECT_NEAR(vsc_above(row.angle_deg), row.published, 0.051);
         Vessel vessel(row.angle_deg > 0.0 ? obstruction(row.angle_deg) : QuadScene().ground(1, -1000));
         const SkyShares shares = vessel.shares(sample_at({0, 0, 0}, {0, -1, 0}));
+        for (const int n : {512, 1024, 2048}) {
+            const SkyShares fewer = vessel.shares(sample_at({0, 0, 0}, {0, -1, 0}), n);
+            std::printf("%d directions: %.3f; ", n, static_cast<double>(fewer.sky_component_pct[0]));
+        }
         std::printf("VSC above %.0f deg: %.3f %%, closed form %.3f %%\n", row.angle_deg,
                     static_cast<double>(shares.sky_component_pct[0]),
                     vsc_above(row.angle_deg));
@@ -60,6 +64,10 @@ TEST(SkyShares, CanyonFloor) {
         Vessel vessel(canyon(h));
         const SkyShares shares = vessel.shares(sample_at({0, 0, 0}, {0, 0, 1}));
         const double truth = 1.0 / std::sqrt(1.0 + 4.0 * static_cast<double>(h * h) / 100.0);
+        for (const int n : {512, 1024, 2048}) {
+            const SkyShares fewer = vessel.shares(sample_at({0, 0, 0}, {0, 0, 1}), n);
+            std::printf("%d directions: %.4f; ", n, static_cast<double>(fewer.sky_view_factor[0]));
+        }
         std::printf("canyon %.0f m: %.4f, closed form %.4f\n", static_cast<double>(h), static_cast<double>(shares.sky_view_factor[0]), truth);
         EXPECT_NEAR(shares.sky_view_factor[0], truth, 0.002);
     }
