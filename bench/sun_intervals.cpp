@@ -74,26 +74,30 @@ int run(int argc, char** argv) {
     const Site site = loaded.georeference.site.value();
     const double convergence = loaded.georeference.convergence_rad;
     const ReceiverSet facades = make_receivers(scene, rays, {.kinds = {ReceiverKind::facade}, .cell_m = 1.0});
+    // Whole packets, as a study traces them, from all over the city.
+    const std::vector<PacketRange> packets = packet_ranges(facades.samples);
     std::vector<Sample> points;
-    for (std::size_t i = 0; i < kPoints; ++i) {
+    for (std::size_t i = 0; points.size() < kPoints; ++i) {
         const double u = static_cast<double>(uniform_float(0, i, 0, 0));
-        points.push_back(facades.samples[static_cast<std::size_t>(u * static_cast<double>(facades.samples.size()))]);
+        const PacketRange& range = packets[static_cast<std::size_t>(u * static_cast<double>(packets.size()))];
+        points.insert(points.end(), facades.samples.begin() + range.begin, facades.samples.begin() + range.end);
     }
-    fmt::print("{} points of {} facade cells\n", points.size(), facades.samples.size());
+    fmt::print("{} points of {} facade cells, in whole packets\n", points.size(), facades.samples.size());
     for (const CalendarDay date : {CalendarDay{3, 21}, CalendarDay{6, 21}, CalendarDay{12, 21}}) {
         const SunDay day(2026, date, site, convergence, {});
         std::vector<std::vector<char>> sunny(points.size());
         tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
-            const Vec3f origin = Vec3f(points[i].position - scene.origin) + rays.surface_offset() * points[i].normal;
+            const Sample& point = points[i];
+            const Vec3f origin = Vec3f(point.position - scene.origin) + rays.surface_offset() * point.normal;
             for (int s = 0; s <= day.length_s(); ++s) {
                 const Vec3f direction = day.direction(s);
-                sunny[i].push_back(glm::dot(direction, points[i].normal) > 0.0f && !rays.is_occluded(origin, direction));
+                sunny[i].push_back(glm::dot(direction, point.normal) > 0.0f && !rays.is_occluded(origin, direction));
             }
         });
         fmt::print("\n{:02}-{:02}, {:.2f} h\n| step | ends | within 2 s | wrong a point | sun hours off, mean | most | rays a point |\n"
                    "|---|---|---|---|---|---|---|\n",
                    date.month, date.day, day.hours());
-        for (const double scan : {30.0, 60.0, 120.0, 240.0, 480.0}) {
+        for (const double scan : {30.0, 60.0, 120.0, 240.0}) {
             const SunIntervals found = sun_intervals(points, day, scene.origin, rays, {.scan_s = scan}, silent);
             print("exact, scan", scan, agreement(found, sunny), found.rays, points.size());
         }

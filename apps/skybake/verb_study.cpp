@@ -34,7 +34,7 @@ struct Options {
     std::optional<double> height_m, min_elevation_deg;
     std::string days, step, site, timezone;
     int year = 2026;
-    double scan_s = 120.0;
+    double scan_s = 60.0;
     int sky_directions = 4096;
     double ground_albedo = 0.2;
     std::vector<fs::path> added, before;

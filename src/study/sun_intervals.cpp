@@ -12,6 +12,9 @@ namespace skybake {
 namespace {
 
 constexpr std::size_t kPacketsPerTask = 16;
+/// Where something changes, short moments are near: those steps are cut into so many parts. Found by bench_sun_intervals
+/// (docs/benchmarks.md).
+constexpr int kBusyParts = 6;
 
 /// Follows one packet through one day.
 class PacketDay {
@@ -74,16 +77,19 @@ class PacketDay {
         for (const int t : times) masks.push_back(sunny_at(t));
         change(span.begin_s, masks.front(), masks.front());
         for (std::size_t i = 1; i < times.size(); ++i) {
-            const bool has_busy_neighbour = (i > 1 && masks[i - 2] != masks[i - 1]) ||
-                                            (i + 1 < times.size() && masks[i] != masks[i + 1]);
-            if (masks[i - 1] == masks[i] && has_busy_neighbour && times[i] - times[i - 1] > 1) {
-                const int middle = times[i - 1] + (times[i] - times[i - 1]) / 2;
-                const std::uint32_t at_middle = sunny_at(middle);
-                refine(times[i - 1], middle, masks[i - 1], at_middle);
-                refine(middle, times[i], at_middle, masks[i]);
-            } else {
-                refine(times[i - 1], times[i], masks[i - 1], masks[i]);
+            const bool is_busy = masks[i - 1] != masks[i] || (i > 1 && masks[i - 2] != masks[i - 1]) ||
+                                 (i + 1 < times.size() && masks[i] != masks[i + 1]);
+            int from = times[i - 1];
+            std::uint32_t at_from = masks[i - 1];
+            for (int part = 1; is_busy && part < kBusyParts; ++part) {
+                const int to = times[i - 1] + (times[i] - times[i - 1]) * part / kBusyParts;
+                if (to <= from) continue;
+                const std::uint32_t at_to = sunny_at(to);
+                refine(from, to, at_from, at_to);
+                from = to;
+                at_from = at_to;
             }
+            refine(from, times[i], at_from, masks[i]);
         }
         change(span.end_s, masks.back(), 0);
     }

@@ -48,16 +48,16 @@ struct SampledConstruction {
 struct SunIntervalOptions {
     /// Step of the scan in which crossings are looked for, seconds. A sunny or shaded moment that is shorter may be
     /// missed: docs/validation.md says how many are.
-    double scan_s = 120.0;
+    double scan_s = 60.0;
     /// The sun counts at this angle above the surface's plane, degrees.
     double min_incidence_deg = 0.0;
     /// Instead of the exact crossings: only the instants begin, begin + step, … of each span of the day.
     std::optional<SampledConstruction> sampled = std::nullopt;
 };
 
-/// The intervals of direct sun. Each packet is traced at the steps of the scan; where its mask of sunny samples changes,
-/// or changes in a neighbouring step, the step is halved, and where the halves' masks differ, on to 1 s: ends are right
-/// to 0.5 s for the sun's middle. Each trace of a halving asks all samples of the packet, so that moments shorter than
+/// The intervals of direct sun. Each packet is traced at the steps of the scan; a step in which its mask of sunny samples
+/// changes, or changes in a neighbouring step, is cut into six parts, and parts whose masks differ are halved on to 1 s:
+/// ends are right to 0.5 s for the sun's middle. Each trace of a halving asks all samples of the packet, so that moments shorter than
 /// the scan are found near any crossing of a neighbour. Parallel; the same for any number of threads. Throws Interrupted
 /// when `progress` wants to stop.
 SunIntervals sun_intervals(std::span<const Sample> samples, const SunDay& day, const Vec3d& scene_origin,
