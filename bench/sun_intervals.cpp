@@ -1,5 +1,5 @@
-// How exact and how fast sunny intervals are: against a ray at every second for façade points of a city, and for all its
-// cells. Usage: bench_sun_intervals CITY [CELL_M]
+// How exact and how fast sunny intervals are: against a ray at every second for façade points of a city, and for all
+// its cells. Usage: bench_sun_intervals CITY [CELL_M]
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
@@ -20,7 +20,7 @@ constexpr std::size_t kPoints = 1000;
 
 struct Agreement {
     std::uint64_t ends = 0, found = 0;
-    double missed_s = 0.0;     // sun or shade that the intervals get wrong
+    double missed_s = 0.0;                           // sun or shade that the intervals get wrong
     double worst_sun_min = 0.0, mean_sun_min = 0.0;  // error of a point's sun hours
 };
 
@@ -94,9 +94,11 @@ int run(int argc, char** argv) {
                 sunny[i].push_back(glm::dot(direction, point.normal) > 0.0f && !rays.is_occluded(origin, direction));
             }
         });
-        fmt::print("\n{:02}-{:02}, {:.2f} h\n| step | ends | within 2 s | wrong a point | sun hours off, mean | most | rays a point |\n"
-                   "|---|---|---|---|---|---|---|\n",
-                   date.month, date.day, day.hours());
+        fmt::print(
+            "\n{:02}-{:02}, {:.2f} h\n| step | ends | within 2 s | wrong a point | sun hours off, mean | most | rays a "
+            "point |\n"
+            "|---|---|---|---|---|---|---|\n",
+            date.month, date.day, day.hours());
         for (const double scan : {30.0, 60.0, 120.0, 240.0}) {
             const SunIntervals found = sun_intervals(points, day, scene.origin, rays, {.scan_s = scan}, silent);
             print("exact, scan", scan, agreement(found, sunny), found.rays, points.size());
@@ -110,13 +112,13 @@ int run(int argc, char** argv) {
     }
     const SunDay day(2026, {3, 21}, site, convergence, {});
     fmt::print("\nAll cells, one day:\n| cells | of m | rays | s | million rays/s |\n|---|---|---|---|---|\n");
-        const ReceiverSet all = make_receivers(
-            scene, rays, {.kinds = {ReceiverKind::ground, ReceiverKind::roof, ReceiverKind::facade}, .cell_m = cell_m});
-        const auto begin = std::chrono::steady_clock::now();
-        const SunIntervals found = sun_intervals(all.samples, day, scene.origin, rays, {}, silent);
-        const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-        fmt::print("| {} | {} | {:.3g} | {:.1f} | {:.1f} |\n", all.samples.size(), cell_m, static_cast<double>(found.rays),
-                   seconds, 1e-6 * static_cast<double>(found.rays) / seconds);
+    const ReceiverSet all = make_receivers(
+        scene, rays, {.kinds = {ReceiverKind::ground, ReceiverKind::roof, ReceiverKind::facade}, .cell_m = cell_m});
+    const auto begin = std::chrono::steady_clock::now();
+    const SunIntervals found = sun_intervals(all.samples, day, scene.origin, rays, {}, silent);
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    fmt::print("| {} | {} | {:.3g} | {:.1f} | {:.1f} |\n", all.samples.size(), cell_m, static_cast<double>(found.rays),
+               seconds, 1e-6 * static_cast<double>(found.rays) / seconds);
     return 0;
 }
 

@@ -56,8 +56,8 @@ std::vector<CalendarDay> parse_days(const std::string& text) {
         const std::string word = text.substr(at, end - at);
         CalendarDay day{0, 0};
         char rest = 0;
-        if (std::sscanf(word.c_str(), "%2d-%2d%c", &day.month, &day.day, &rest) != 2 || day.month < 1 || day.month > 12 ||
-            day.day < 1 || day.day > 31)
+        if (std::sscanf(word.c_str(), "%2d-%2d%c", &day.month, &day.day, &rest) != 2 || day.month < 1 ||
+            day.month > 12 || day.day < 1 || day.day > 31)
             throw InputError(fmt::format("--days '{}': '{}' is no day; write MM-DD, such as 03-21,12-21.", text, word));
         days.push_back(day);
         at = end + 1;
@@ -78,11 +78,12 @@ SampledConstruction parse_step(const std::string& text) {
 
 ReceiverKind parse_kind(const std::string& name) {
     static const std::map<std::string, ReceiverKind> kKinds{
-        {"ground", ReceiverKind::ground}, {"polygons", ReceiverKind::polygon}, {"roofs", ReceiverKind::roof},
-        {"facades", ReceiverKind::facade}, {"windows", ReceiverKind::window}, {"points", ReceiverKind::point}};
+        {"ground", ReceiverKind::ground},  {"polygons", ReceiverKind::polygon}, {"roofs", ReceiverKind::roof},
+        {"facades", ReceiverKind::facade}, {"windows", ReceiverKind::window},   {"points", ReceiverKind::point}};
     const auto found = kKinds.find(name);
     if (found != kKinds.end()) return found->second;
-    throw InputError(fmt::format("--receivers '{}': is none of ground, polygons, roofs, facades, windows, points.", name));
+    throw InputError(
+        fmt::format("--receivers '{}': is none of ground, polygons, roofs, facades, windows, points.", name));
 }
 
 StudyRequest request_of(const Options& options, FindingLog& weather_findings) {
@@ -139,8 +140,7 @@ void write_outputs(const Options& options, const Rule& rule, const StudyResult& 
     if (result.facts.has_before) io::write_new_shadow_csv(folder / "new_shadow.csv", study);
     // Last, so that a folder with a report is whole.
     const std::string text = report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
-    io::write_file(folder / "report.json",
-                   std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
+    io::write_file(folder / "report.json", std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
 }
 
 void print_verdicts(const Rule& rule, const StudyResult& result) {
@@ -208,8 +208,11 @@ void add_receiver_options(CLI::App* verb, Options& options) {
         ->delimiter(',');
     verb->add_option("--points", options.points, "CSV with points: id,x,y,z,nx,ny,nz in map coordinates");
     verb->add_option("--polygons", options.polygons, "GeoJSON or GeoPackage with areas on the ground: parks, squares");
-    verb->add_option("--cell", options.cell_m, "length of a cell, metres")->capture_default_str()->check(CLI::Range(0.05, 100.0));
-    verb->add_option("--height", options.height_m, "height of ground cells above the ground, metres (default: the rule's)")
+    verb->add_option("--cell", options.cell_m, "length of a cell, metres")
+        ->capture_default_str()
+        ->check(CLI::Range(0.05, 100.0));
+    verb->add_option("--height", options.height_m,
+                     "height of ground cells above the ground, metres (default: the rule's)")
         ->check(CLI::Range(0.0, 100.0));
     verb->add_option("--storey-height", options.storey_height_m, "height of a storey, metres")
         ->capture_default_str()
@@ -218,7 +221,9 @@ void add_receiver_options(CLI::App* verb, Options& options) {
 
 void add_time_options(CLI::App* verb, Options& options) {
     verb->add_option("--days", options.days, "days MM-DD,… instead of the rule's");
-    verb->add_option("--year", options.year, "calendar year of the days")->capture_default_str()->check(CLI::Range(1600, 3000));
+    verb->add_option("--year", options.year, "calendar year of the days")
+        ->capture_default_str()
+        ->check(CLI::Range(1600, 3000));
     verb->add_option("--timezone", options.timezone, "IANA time zone, for rules that go by the clock");
     verb->add_option("--site", options.site, "LAT,LON in degrees (default: from the city's CRS)");
     verb->add_option("--min-elevation", options.min_elevation_deg, "the sun counts from this elevation on, degrees")

@@ -81,9 +81,11 @@ void check_rule_has_its_data(const StudyRequest& request) {
     }
     if (rule.occluders == Occluders::plan && !has_plan) {
         throw InputError(fmt::format(
-            "rule {}: looks at the shadow of the plan alone. Say what the plan is by --add FILE or --plan ID.", rule.id));
+            "rule {}: looks at the shadow of the plan alone. Say what the plan is by --add FILE or --plan ID.",
+            rule.id));
     }
-    const bool needs_weather = rule.needs_weather || wants(rule, {Metric::irradiation_kwh_m2, Metric::reflected_kwh_m2});
+    const bool needs_weather =
+        rule.needs_weather || wants(rule, {Metric::irradiation_kwh_m2, Metric::reflected_kwh_m2});
     if (needs_weather && !request.weather)
         throw InputError(fmt::format("rule {}: needs weather. Pass --weather FILE.epw.", rule.id));
 }
@@ -103,17 +105,20 @@ void check_receivers(const ReceiverSet& set, const StudyRequest& request) {
     std::vector<std::string> kinds;
     for (const ReceiverKind kind : request.receivers.kinds) kinds.emplace_back(name_of(kind));
     if (set.samples.empty()) {
-        throw InputError(fmt::format(
-            "there is no receiver: the city has nothing of {} to look at{}. Choose others with --receivers, give --points "
-            "or --polygons, or ground with --ground draped.",
-            fmt::join(kinds, ", "), set.enclosed > 0 ? fmt::format(" ({} cells lie inside bodies)", set.enclosed) : ""));
+        throw InputError(
+            fmt::format("there is no receiver: the city has nothing of {} to look at{}. Choose others with "
+                        "--receivers, give --points "
+                        "or --polygons, or ground with --ground draped.",
+                        fmt::join(kinds, ", "),
+                        set.enclosed > 0 ? fmt::format(" ({} cells lie inside bodies)", set.enclosed) : ""));
     }
     for (const Receiver& receiver : set.receivers) {
         if (receiver.sample_begin == receiver.sample_end) {
-            throw InputError(fmt::format(
-                "polygon '{}' holds no cell of open ground: it is smaller than --cell, lies outside the city, or there is "
-                "no ground (--ground draped).",
-                receiver.id));
+            throw InputError(
+                fmt::format("polygon '{}' holds no cell of open ground: it is smaller than --cell, lies outside the "
+                            "city, or there is "
+                            "no ground (--ground draped).",
+                            receiver.id));
         }
     }
 }
@@ -161,7 +166,8 @@ StudyResult study_city(StudyRequest request, Progress& progress) {
     const std::optional<Site> site = request.site ? request.site : loaded.georeference.site;
     if (!site)
         throw InputError(
-            "it is not known where on Earth the city lies: its file names no reference system that is known. Pass --site "
+            "it is not known where on Earth the city lies: its file names no reference system that is known. Pass "
+            "--site "
             "LAT,LON.");
     settings.site = *site;
     settings.convergence_rad = loaded.georeference.convergence_rad;
@@ -242,11 +248,13 @@ std::vector<std::string> shipped_rules(const std::filesystem::path& folder) {
 }
 
 std::filesystem::path rule_file_of(const std::string& name, const std::filesystem::path& folder) {
-    if (const std::filesystem::path shipped = folder / (name + ".json"); std::filesystem::exists(shipped)) return shipped;
+    if (const std::filesystem::path shipped = folder / (name + ".json"); std::filesystem::exists(shipped))
+        return shipped;
     if (std::filesystem::exists(name)) return name;
     const std::vector<std::string> names = shipped_rules(folder);
-    throw InputError(fmt::format("--rule '{}' is neither a file nor a shipped rule; did you mean '{}'? Shipped are: {}.",
-                                 name, nearest_word(name, names), fmt::join(names, ", ")));
+    throw InputError(
+        fmt::format("--rule '{}' is neither a file nor a shipped rule; did you mean '{}'? Shipped are: {}.", name,
+                    nearest_word(name, names), fmt::join(names, ", ")));
 }
 
 }  // namespace skybake

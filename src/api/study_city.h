@@ -41,8 +41,8 @@ struct StudyResult {
 };
 
 /// Loads, builds both states, computes and judges. Throws InputError for what makes the study impossible, before long
-/// work: no place on Earth, a rule without what it needs (former state, weather, plan), a day without sun, no receivers,
-/// unknown objects, a former state in another reference system.
+/// work: no place on Earth, a rule without what it needs (former state, weather, plan), a day without sun, no
+/// receivers, unknown objects, a former state in another reference system.
 StudyResult study_city(StudyRequest request, Progress& progress);
 
 /// The files of the shipped rules in a folder, by their ids ("bre209-vsc"); sorted.

@@ -44,7 +44,8 @@ std::vector<NewShadow> new_shadows(const ReceiverSet& receivers, std::uint32_t d
         for (std::uint32_t s = receiver.sample_begin; s < receiver.sample_end; ++s) {
             double seconds = 0.0;
             std::vector<SunInterval> lost = lost_sun(before.of(s), after.of(s));
-            std::erase_if(lost, [&](const SunInterval& i) { return static_cast<double>(i.end_s - i.begin_s) < least_s; });
+            std::erase_if(lost,
+                          [&](const SunInterval& i) { return static_cast<double>(i.end_s - i.begin_s) < least_s; });
             for (const SunInterval& i : lost) seconds += static_cast<double>(i.end_s - i.begin_s);
             if (lost.empty()) continue;
             ++losers;

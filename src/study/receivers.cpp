@@ -76,12 +76,18 @@ void drop_enclosed(ReceiverSet& set, const Scene& scene, const RayScene& rays) {
 
 const char* name_of(ReceiverKind kind) {
     switch (kind) {
-        case ReceiverKind::ground: return "ground";
-        case ReceiverKind::polygon: return "polygon";
-        case ReceiverKind::roof: return "roof";
-        case ReceiverKind::facade: return "facade";
-        case ReceiverKind::window: return "window";
-        case ReceiverKind::point: return "point";
+        case ReceiverKind::ground:
+            return "ground";
+        case ReceiverKind::polygon:
+            return "polygon";
+        case ReceiverKind::roof:
+            return "roof";
+        case ReceiverKind::facade:
+            return "facade";
+        case ReceiverKind::window:
+            return "window";
+        case ReceiverKind::point:
+            return "point";
     }
     return "";
 }

@@ -45,7 +45,7 @@ struct Receiver {
 struct ReceiverSet {
     std::vector<Sample> samples;
     std::vector<Receiver> receivers;
-    double cell_m = 1.0;  // lattice of ground and polygons: cell edges at whole multiples in map coordinates
+    double cell_m = 1.0;         // lattice of ground and polygons: cell edges at whole multiples in map coordinates
     std::uint64_t enclosed = 0;  // cells left out because they lie inside a building or below the ground
 };
 
@@ -76,8 +76,9 @@ struct ReceiverOptions {
 /// storey within. Façades are the polygons of a building that share edges and a plane (1°, 2 cm); surfaces without
 /// semantics count as walls where they stand within 10° of upright, as roofs where they face up. A cell that a surface
 /// fills in part has the area of that part and its centroid as point. Cells that lie within a body are left out
-/// (`ReceiverSet::enclosed`): those that see an inner side along their normal, or anything within 10 cm; an inner side of
-/// the ground above, or of a roof without seeing the sky; or the underside of a building within 1 m above. Parallel; the same for any number of threads.
+/// (`ReceiverSet::enclosed`): those that see an inner side along their normal, or anything within 10 cm; an inner side
+/// of the ground above, or of a roof without seeing the sky; or the underside of a building within 1 m above. Parallel;
+/// the same for any number of threads.
 ReceiverSet make_receivers(const Scene& scene, const RayScene& rays, const ReceiverOptions& options);
 
 /// Height of the ground at the centre of each cell of a lattice over `lo`…`hi` (map coordinates), the highest where

@@ -11,13 +11,17 @@ namespace {
 /// The group of a receiver at a level; empty when it has none.
 std::string group_of(const Receiver& receiver, Level level) {
     switch (level) {
-        case Level::receiver: return receiver.id;
+        case Level::receiver:
+            return receiver.id;
         case Level::facade:
-            return receiver.kind == ReceiverKind::facade ? fmt::format("{}/{}", receiver.object_id, *receiver.surface) : "";
+            return receiver.kind == ReceiverKind::facade ? fmt::format("{}/{}", receiver.object_id, *receiver.surface)
+                                                         : "";
         case Level::storey:
             return receiver.storey ? fmt::format("{}/{}", receiver.building_id, *receiver.storey) : "";
-        case Level::building: return receiver.building_id;
-        case Level::kind: return name_of(receiver.kind);
+        case Level::building:
+            return receiver.building_id;
+        case Level::kind:
+            return name_of(receiver.kind);
     }
     return "";
 }
@@ -43,11 +47,16 @@ void judge_group(const Rule& rule, Group& group) {
 
 const char* name_of(Level level) {
     switch (level) {
-        case Level::receiver: return "receiver";
-        case Level::facade: return "facade";
-        case Level::storey: return "storey";
-        case Level::building: return "building";
-        case Level::kind: return "kind";
+        case Level::receiver:
+            return "receiver";
+        case Level::facade:
+            return "facade";
+        case Level::storey:
+            return "storey";
+        case Level::building:
+            return "building";
+        case Level::kind:
+            return "kind";
     }
     return "";
 }
@@ -87,10 +96,17 @@ std::vector<Group> rolled_up(const Rule& rule, const Study& study, Level level) 
             for (std::size_t c = 0; c < rule.criteria.size(); ++c) {
                 GroupCriterion& result = group.criteria[c];
                 switch (study.criteria[c].verdict[s]) {
-                    case Verdict::pass: result.area_pass += weight; break;
-                    case Verdict::borderline: result.area_borderline += weight; break;
-                    case Verdict::fail: result.area_fail += weight; break;
-                    case Verdict::none: break;
+                    case Verdict::pass:
+                        result.area_pass += weight;
+                        break;
+                    case Verdict::borderline:
+                        result.area_borderline += weight;
+                        break;
+                    case Verdict::fail:
+                        result.area_fail += weight;
+                        break;
+                    case Verdict::none:
+                        break;
                 }
             }
         }

@@ -6,9 +6,9 @@
 namespace skybake {
 namespace {
 constexpr std::array<const char*, kMetricCount> kMetricNames{
-    "sun_hours",         "longest_sun_hours", "shadow_hours",        "longest_shadow_hours", "new_shadow_hours",   "sky_view_factor",
-    "sky_component_pct", "sunshine_pct",      "winter_sunshine_pct", "irradiation_kwh_m2",   "reflected_kwh_m2",
-    "light_incidence_deg"};
+    "sun_hours",           "longest_sun_hours",  "shadow_hours",      "longest_shadow_hours",
+    "new_shadow_hours",    "sky_view_factor",    "sky_component_pct", "sunshine_pct",
+    "winter_sunshine_pct", "irradiation_kwh_m2", "reflected_kwh_m2",  "light_incidence_deg"};
 }
 
 const char* name_of(Metric metric) {
@@ -35,10 +35,14 @@ std::vector<Metric> Rule::all_metrics() const {
 
 const char* name_of(Verdict verdict) {
     switch (verdict) {
-        case Verdict::none: return "none";
-        case Verdict::pass: return "pass";
-        case Verdict::borderline: return "borderline";
-        case Verdict::fail: return "fail";
+        case Verdict::none:
+            return "none";
+        case Verdict::pass:
+            return "pass";
+        case Verdict::borderline:
+            return "borderline";
+        case Verdict::fail:
+            return "fail";
     }
     return "";
 }

@@ -49,8 +49,8 @@ struct Criterion {
     /// Values within this distance of the threshold are borderline.
     double tolerance = 0.0;
     OverDays over_days = OverDays::each;
-    double area_share = 1.0;   // of a group that has to meet it
-    bool is_required = true;   // higher levels of a rule are reported, but not failed
+    double area_share = 1.0;  // of a group that has to meet it
+    bool is_required = true;  // higher levels of a rule are reported, but not failed
     /// Kinds it is asked of; empty: all of the rule's.
     std::vector<ReceiverKind> kinds;
 };
@@ -77,7 +77,7 @@ struct Rule {
     Occluders occluders = Occluders::all;
     bool needs_before = false;
     bool needs_weather = false;
-    double swivel_deg = 30.0;    // of light_incidence_deg
+    double swivel_deg = 30.0;     // of light_incidence_deg
     std::vector<Metric> metrics;  // reported besides those of the criteria
     std::vector<Criterion> criteria;
 
@@ -93,8 +93,8 @@ struct Judgement {
     Verdict verdict = Verdict::none;
     double margin = 0.0;
 };
-/// `before` is the value of the former state, where there is one. Where a share of it is enough, a value that is no worse
-/// than it passes.
+/// `before` is the value of the former state, where there is one. Where a share of it is enough, a value that is no
+/// worse than it passes.
 Judgement judge(const Criterion& criterion, double value, std::optional<double> before);
 
 }  // namespace skybake

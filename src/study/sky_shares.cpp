@@ -2,7 +2,6 @@
 
 #include <tbb/parallel_for.h>
 
-
 #include "base/error.h"
 #include "sky/cie_sky.h"
 #include "sky/dome_sampling.h"

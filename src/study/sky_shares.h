@@ -13,9 +13,9 @@
 namespace skybake {
 
 struct SkyShares {
-    std::vector<float> sky_view_factor;         // cosine-weighted: 1 on open ground, 0.5 on a free wall
-    std::vector<float> sky_component_pct;       // of the CIE overcast sky: illuminance over that of open ground; 39.62 on a
-                                                // free wall ("vertical sky component"), 100 on open ground
+    std::vector<float> sky_view_factor;    // cosine-weighted: 1 on open ground, 0.5 on a free wall
+    std::vector<float> sky_component_pct;  // of the CIE overcast sky: illuminance over that of open ground; 39.62 on a
+                                           // free wall ("vertical sky component"), 100 on open ground
     std::vector<float> sky_irradiation_kwh_m2;  // empty without a cumulated sky
     std::uint64_t rays = 0;
 };

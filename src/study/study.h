@@ -55,7 +55,7 @@ struct StudySettings {
     std::optional<std::string> timezone;
     double scan_s = 60.0;
     int sky_directions = 4096;
-    double ground_albedo = 0.2;            // of reflected_kwh_m2
+    double ground_albedo = 0.2;             // of reflected_kwh_m2
     const YearLight* year_light = nullptr;  // for sunshine and irradiation
 };
 

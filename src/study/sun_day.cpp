@@ -53,7 +53,8 @@ std::pair<UtcTime, UtcTime> window_of(int year, CalendarDay day, const Site& sit
     if (window.clock == Clock::after_sunrise)
         return {after(sunrise, window.start_h * kHourMs), after(sunset, -window.end_h * kHourMs)};
     if (!(window.start_h < window.end_h))
-        throw InputError(fmt::format("the window ends at {} h, before it begins at {} h.", window.end_h, window.start_h));
+        throw InputError(
+            fmt::format("the window ends at {} h, before it begins at {} h.", window.end_h, window.start_h));
     return {std::max(sunrise, by_clock(year, day, window.start_h, site, options)),
             std::min(sunset, by_clock(year, day, window.end_h, site, options))};
 }
@@ -64,7 +65,8 @@ SunDay::SunDay(int year, CalendarDay day, const Site& site, double convergence_r
     : year_(year), day_(day) {
     const auto [begin, end] = window_of(year, day, site, options);
     begin_ = begin;
-    length_s_ = std::max(0, static_cast<int>(std::lround(static_cast<double>(end.milliseconds - begin.milliseconds) / 1e3)));
+    length_s_ =
+        std::max(0, static_cast<int>(std::lround(static_cast<double>(end.milliseconds - begin.milliseconds) / 1e3)));
     const double delta_t = delta_t_s(decimal_year(begin));
     for (int s = 0; s < length_s_ + kTableStepS; s += kTableStepS) {
         const SolarPosition sun = solar_position(after(begin, 1e3 * s), site, {.delta_t_s = delta_t});

@@ -29,7 +29,7 @@ struct SunWindow {
 
 struct SunDayOptions {
     SunWindow window = {};
-    double min_elevation_deg = 0.0;       // geometric elevation below which the sun does not count
+    double min_elevation_deg = 0.0;                      // geometric elevation below which the sun does not count
     std::optional<std::string> timezone = std::nullopt;  // IANA name; civil and standard clocks need it
 };
 

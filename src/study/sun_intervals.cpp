@@ -12,8 +12,8 @@ namespace skybake {
 namespace {
 
 constexpr std::size_t kPacketsPerTask = 16;
-/// Where something changes, short moments are near: those steps are cut into so many parts. Found by bench_sun_intervals
-/// (docs/benchmarks.md).
+/// Where something changes, short moments are near: those steps are cut into so many parts. Found by
+/// bench_sun_intervals (docs/benchmarks.md).
 constexpr int kBusyParts = 6;
 
 /// Follows one packet through one day.
@@ -103,7 +103,9 @@ class PacketDay {
             const std::uint32_t now = sunny_at(t);
             const std::uint32_t rises = now & ~before, sets = before & ~now;
             switch (sampled.between) {
-                case BetweenSamples::nearest: change(0.5 * (last + t), rises | sets, now); break;
+                case BetweenSamples::nearest:
+                    change(0.5 * (last + t), rises | sets, now);
+                    break;
                 case BetweenSamples::shadow_needs_both:
                     change(last, rises, now);
                     change(t, sets, now);

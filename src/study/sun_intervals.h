@@ -55,11 +55,11 @@ struct SunIntervalOptions {
     std::optional<SampledConstruction> sampled = std::nullopt;
 };
 
-/// The intervals of direct sun. Each packet is traced at the steps of the scan; a step in which its mask of sunny samples
-/// changes, or changes in a neighbouring step, is cut into six parts, and parts whose masks differ are halved on to 1 s:
-/// ends are right to 0.5 s for the sun's middle. Each trace of a halving asks all samples of the packet, so that moments shorter than
-/// the scan are found near any crossing of a neighbour. Parallel; the same for any number of threads. Throws Interrupted
-/// when `progress` wants to stop.
+/// The intervals of direct sun. Each packet is traced at the steps of the scan; a step in which its mask of sunny
+/// samples changes, or changes in a neighbouring step, is cut into six parts, and parts whose masks differ are halved
+/// on to 1 s: ends are right to 0.5 s for the sun's middle. Each trace of a halving asks all samples of the packet, so
+/// that moments shorter than the scan are found near any crossing of a neighbour. Parallel; the same for any number of
+/// threads. Throws Interrupted when `progress` wants to stop.
 SunIntervals sun_intervals(std::span<const Sample> samples, const SunDay& day, const Vec3d& scene_origin,
                            const RayScene& rays, const SunIntervalOptions& options, Progress& progress);
 

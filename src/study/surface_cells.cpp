@@ -36,12 +36,15 @@ Vec3d area_vector_of(const Scene& scene, const Face& face) {
 bool is_of_kind(ReceiverKind kind, SurfaceType type, const Vec3d& normal) {
     const bool is_named = type != SurfaceType::unknown && type != SurfaceType::other;
     switch (kind) {
-        case ReceiverKind::window: return type == SurfaceType::window;
-        case ReceiverKind::facade: return is_named ? type == SurfaceType::wall : std::abs(normal.z) <= kUprightSine;
+        case ReceiverKind::window:
+            return type == SurfaceType::window;
+        case ReceiverKind::facade:
+            return is_named ? type == SurfaceType::wall : std::abs(normal.z) <= kUprightSine;
         case ReceiverKind::roof:
             return is_named ? (type == SurfaceType::roof || type == SurfaceType::floor) && normal.z > 0.0
                             : normal.z > kUprightSine;
-        default: return false;
+        default:
+            return false;
     }
 }
 
@@ -75,9 +78,9 @@ std::vector<Patch> patches_of(const Scene& scene, std::span<const std::uint32_t>
                 std::vector<std::uint32_t>& sharers = faces_of_edge[{face.object, ends.first, ends.second}];
                 for (const std::uint32_t other : sharers) {
                     const Vec3d other_point(scene.triangles[scene.faces[faces[other]].first_triangle][0]);
-                    const bool is_coplanar = glm::dot(normals[i], normals[other]) >= kCoplanarCosine &&
-                                             std::abs(glm::dot(normals[i], other_point - Vec3d(triangle[0]))) <=
-                                                 kCoplanarM;
+                    const bool is_coplanar =
+                        glm::dot(normals[i], normals[other]) >= kCoplanarCosine &&
+                        std::abs(glm::dot(normals[i], other_point - Vec3d(triangle[0]))) <= kCoplanarM;
                     if (is_coplanar) parent[root(i)] = root(other);
                 }
                 sharers.push_back(i);
@@ -111,7 +114,8 @@ std::vector<Corner> slab(const std::vector<Corner>& polygon, double Corner::*coo
             if (da >= 0.0) out.push_back(a);
             if ((da > 0.0 && db < 0.0) || (da < 0.0 && db > 0.0)) {
                 const double s = da / (da - db);
-                out.push_back({a.position + s * (b.position - a.position), a.u + s * (b.u - a.u), a.v + s * (b.v - a.v)});
+                out.push_back(
+                    {a.position + s * (b.position - a.position), a.u + s * (b.u - a.u), a.v + s * (b.v - a.v)});
             }
         }
         in = out;
@@ -237,8 +241,8 @@ Sample sample_of(const CellSum& cell, const PatchFrame& frame, const Scene& scen
     sample.position = scene.origin + point;
     sample.normal = Vec3f(frame.normal);
     sample.area_m2 = static_cast<float>(cell.area);
-    sample.corner = Vec3f((cell.lo.x - glm::dot(point, frame.u)) * frame.u +
-                          (cell.lo.y - glm::dot(point, frame.v)) * frame.v);
+    sample.corner =
+        Vec3f((cell.lo.x - glm::dot(point, frame.u)) * frame.u + (cell.lo.y - glm::dot(point, frame.v)) * frame.v);
     sample.u = Vec3f((cell.hi.x - cell.lo.x) * frame.u);
     sample.v = Vec3f((cell.hi.y - cell.lo.y) * frame.v);
     sample.receiver = receiver;

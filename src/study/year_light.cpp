@@ -39,8 +39,8 @@ class MomentMaker {
         for (int d = 0; d < kDeclinations; ++d) {
             for (int h = 0; h < kHourAngles; ++h) {
                 const double declination = kLastDeclinationRad * (2.0 * d / (kDeclinations - 1) - 1.0);
-                nodes.push_back(Vec3f(
-                    node_direction(declination, 2.0 * kPi * h / kHourAngles - kPi, site.latitude_rad, convergence_rad)));
+                nodes.push_back(Vec3f(node_direction(declination, 2.0 * kPi * h / kHourAngles - kPi, site.latitude_rad,
+                                                     convergence_rad)));
             }
         }
     }
@@ -52,8 +52,8 @@ class MomentMaker {
         SunMoment moment;
         moment.direction = Vec3f(world_direction(sun.azimuth_rad, sun.apparent_elevation_rad, convergence_rad_));
         moment.is_winter = (sun.declination_rad < 0.0) == (site_.latitude_rad >= 0.0);
-        const double row = std::clamp((sun.declination_rad / kLastDeclinationRad + 1.0) / 2.0, 0.0, 1.0) *
-                           (kDeclinations - 1);
+        const double row =
+            std::clamp((sun.declination_rad / kLastDeclinationRad + 1.0) / 2.0, 0.0, 1.0) * (kDeclinations - 1);
         const double column = (sun.hour_angle_rad + kPi) / (2.0 * kPi) * kHourAngles;
         const int d = std::min(static_cast<int>(row), kDeclinations - 2);
         const int h = static_cast<int>(column);
@@ -120,7 +120,8 @@ YearLight year_light(const Weather& weather, const Site& site, double convergenc
     for (const WeatherRow& row : weather.rows) {
         if (std::find(period.months.begin(), period.months.end(), row.month) == period.months.end()) continue;
         if (!row.dni || !row.dhi) continue;
-        const double centre_ms = static_cast<double>(label_time(weather, row).milliseconds) + weather.centre.offset_h * 3600e3;
+        const double centre_ms =
+            static_cast<double>(label_time(weather, row).milliseconds) + weather.centre.offset_h * 3600e3;
         std::vector<SunMoment> moments;
         for (int k = 0; k < parts; ++k) {
             const double part_ms = centre_ms + ((k + 0.5) / parts - 0.5) * interval_h * 3600e3;
@@ -137,7 +138,8 @@ YearLight year_light(const Weather& weather, const Site& site, double convergenc
         const PerezSettings settings = weather_sky(hour);
         const PerezWeather perez{hour.dni_w_m2, hour.dhi_w_m2, sun.distance_au, settings.precipitable_water_cm};
         skies.emplace_back(
-            perez_sky(perez, world_direction(sun.azimuth_rad, sun.apparent_elevation_rad, convergence_rad)), interval_h);
+            perez_sky(perez, world_direction(sun.azimuth_rad, sun.apparent_elevation_rad, convergence_rad)),
+            interval_h);
         year.diffuse_kwh_m2 += 1e-3 * *row.dhi * interval_h;
     }
     year.global_kwh_m2 += year.diffuse_kwh_m2;
@@ -162,8 +164,8 @@ YearLight cloudless_year(int year_number, const Site& site, double convergence_r
     return year;
 }
 
-YearSun year_sun(std::span<const Sample> samples, const Vec3d& scene_origin, const RayScene& rays, const YearLight& year,
-                 Progress& progress) {
+YearSun year_sun(std::span<const Sample> samples, const Vec3d& scene_origin, const RayScene& rays,
+                 const YearLight& year, Progress& progress) {
     YearSun sun;
     sun.beam_kwh_m2.resize(samples.size());
     sun.sunshine_pct.resize(samples.size());

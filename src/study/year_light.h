@@ -36,17 +36,17 @@ struct SunMoment {
 struct YearLight {
     ImageSky sky;  // the sky's radiance summed over time, kWh m⁻² sr⁻¹ in each channel
     std::vector<SunMoment> moments;
-    std::vector<Vec3f> nodes;  // directions of the lattice
-    double global_kwh_m2 = 0.0;    // on open level ground
-    double beam_kwh_m2 = 0.0;      // on a plane that faces the sun
-    double diffuse_kwh_m2 = 0.0;   // on open level ground
+    std::vector<Vec3f> nodes;     // directions of the lattice
+    double global_kwh_m2 = 0.0;   // on open level ground
+    double beam_kwh_m2 = 0.0;     // on a plane that faces the sun
+    double diffuse_kwh_m2 = 0.0;  // on open level ground
     double sunshine_h = 0.0;
     double winter_sunshine_h = 0.0;
 };
 
-/// Sums a weather file over the period. Each row's Perez sky (sky/perez_sky.h) is added to a picture of 144 × 72 pixels;
-/// each row's interval is cut into quarters of an hour, and its beam shared among those with the sun up. Sunshine is time
-/// with a beam of at least 120 W m⁻² (WMO, Guide to instruments, 2018, §8.1.1).
+/// Sums a weather file over the period. Each row's Perez sky (sky/perez_sky.h) is added to a picture of 144 × 72
+/// pixels; each row's interval is cut into quarters of an hour, and its beam shared among those with the sun up.
+/// Sunshine is time with a beam of at least 120 W m⁻² (WMO, Guide to instruments, 2018, §8.1.1).
 YearLight year_light(const Weather& weather, const Site& site, double convergence_rad, const Period& period);
 
 /// Without weather: every moment with the sun up counts as sunshine, and there is no energy. `year` of the sun's ways.
@@ -60,10 +60,10 @@ struct YearSun {
     std::uint64_t rays = 0;
 };
 
-/// Visibility is traced to the lattice's nodes (declination every 3.9°, hour angle every 3.75°) and taken as bilinear between
-/// them; cosine and horizon of each sample's surface are those of each moment. Error: tests/study/year_light_test.cpp.
-/// Parallel; the same for any number of threads.
-YearSun year_sun(std::span<const Sample> samples, const Vec3d& scene_origin, const RayScene& rays, const YearLight& year,
-                 Progress& progress);
+/// Visibility is traced to the lattice's nodes (declination every 3.9°, hour angle every 3.75°) and taken as bilinear
+/// between them; cosine and horizon of each sample's surface are those of each moment. Error:
+/// tests/study/year_light_test.cpp. Parallel; the same for any number of threads.
+YearSun year_sun(std::span<const Sample> samples, const Vec3d& scene_origin, const RayScene& rays,
+                 const YearLight& year, Progress& progress);
 
 }  // namespace skybake

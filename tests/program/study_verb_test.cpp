@@ -22,19 +22,21 @@ nlohmann::json box_city(const std::vector<std::pair<std::string, std::array<doub
     };
     if (has_ground) {
         vertex(-60, -60, 0), vertex(60, -60, 0), vertex(60, 60, 0), vertex(-60, 60, 0);
-        objects["ground"] = {{"type", "TINRelief"},
-                             {"geometry",
-                              {{{"type", "CompositeSurface"}, {"lod", "1"}, {"boundaries", {{{0, 1, 2}}, {{0, 2, 3}}}}}}}};
+        objects["ground"] = {
+            {"type", "TINRelief"},
+            {"geometry", {{{"type", "CompositeSurface"}, {"lod", "1"}, {"boundaries", {{{0, 1, 2}}, {{0, 2, 3}}}}}}}};
     }
     for (const auto& [id, b] : boxes) {
         const int v = static_cast<int>(vertices.size());
-        for (const double z : {b[2], b[5]}) vertex(b[0], b[1], z), vertex(b[3], b[1], z), vertex(b[3], b[4], z), vertex(b[0], b[4], z);
+        for (const double z : {b[2], b[5]})
+            vertex(b[0], b[1], z), vertex(b[3], b[1], z), vertex(b[3], b[4], z), vertex(b[0], b[4], z);
         nlohmann::json faces = nlohmann::json::array();
         for (const std::array<int, 4>& f : {std::array{3, 2, 1, 0}, std::array{4, 5, 6, 7}, std::array{0, 1, 5, 4},
                                             std::array{1, 2, 6, 5}, std::array{2, 3, 7, 6}, std::array{3, 0, 4, 7}})
             faces.push_back({{v + f[0], v + f[1], v + f[2], v + f[3]}});
-        objects[id] = {{"type", "Building"},
-                       {"geometry", {{{"type", "Solid"}, {"lod", "1"}, {"boundaries", nlohmann::json::array({faces})}}}}};
+        objects[id] = {
+            {"type", "Building"},
+            {"geometry", {{{"type", "Solid"}, {"lod", "1"}, {"boundaries", nlohmann::json::array({faces})}}}}};
     }
     return {{"type", "CityJSON"},
             {"version", "2.0"},
@@ -82,7 +84,8 @@ class StudyVerb : public testing::Test {
 };
 
 TEST_F(StudyVerb, WritesTablesMapsAndReport) {
-    const nlohmann::json report = json_of({place.str("city.json"), "-o", place.str("out"), "--receivers", "ground,facades"});
+    const nlohmann::json report =
+        json_of({place.str("city.json"), "-o", place.str("out"), "--receivers", "ground,facades"});
     EXPECT_EQ(report["skybake_study"], 1);
     EXPECT_EQ(report["samples"], 120 * 120 - 100 + 4 * 10 * 6);
     EXPECT_EQ(report["crs"], "EPSG:31256");
@@ -114,13 +117,11 @@ TEST_F(StudyVerb, TowerThrowsNewShadow) {
     }
     EXPECT_THAT(text_of(place / "out" / "new_shadow.csv"), HasSubstr("park,polygon,,2026-12-21,2026-12-21T"));
     // The same with the tower in the city and named as the plan, and the other way round.
-    const nlohmann::json named =
-        json_of({place.str("city.json"), place.str("tower.json"), "--rule", "nyc-ceqr", "--plan", "tower", "--polygons",
-                 place.str("park.geojson")});
+    const nlohmann::json named = json_of({place.str("city.json"), place.str("tower.json"), "--rule", "nyc-ceqr",
+                                          "--plan", "tower", "--polygons", place.str("park.geojson")});
     EXPECT_EQ(named["new_shadow"], report["new_shadow"]);
-    const nlohmann::json gone =
-        json_of({place.str("city.json"), place.str("tower.json"), "--rule", "nyc-ceqr", "--remove", "tower", "--polygons",
-                 place.str("park.geojson")});
+    const nlohmann::json gone = json_of({place.str("city.json"), place.str("tower.json"), "--rule", "nyc-ceqr",
+                                         "--remove", "tower", "--polygons", place.str("park.geojson")});
     EXPECT_TRUE(gone["new_shadow"].empty());
 }
 

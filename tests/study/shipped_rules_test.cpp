@@ -27,8 +27,8 @@ StudySettings settings_at(const Site& site) {
 }
 
 /// The verdict of a rule's criterion at one point.
-Verdict verdict(const Rule& rule, std::size_t criterion, QuadScene quads, const Sample& sample,
-                StudySettings settings, const YearLight* year = nullptr, QuadScene* before = nullptr) {
+Verdict verdict(const Rule& rule, std::size_t criterion, QuadScene quads, const Sample& sample, StudySettings settings,
+                const YearLight* year = nullptr, QuadScene* before = nullptr) {
     ReceiverSet set = point_at_origin(sample.normal, sample.position);
     settings.year_light = year;
     const Scene scene = quads.scene();
@@ -82,15 +82,15 @@ void PrintTo(const HoursCase& c, std::ostream* out) {
 }
 
 class SunHoursRule : public testing::TestWithParam<HoursCase> {};
-INSTANTIATE_TEST_SUITE_P(
-    Shipped, SunHoursRule,
-    testing::Values(HoursCase{"en17037-sunlight", 0, 1.5}, HoursCase{"en17037-sunlight", 1, 3.0},
-                    HoursCase{"en17037-sunlight", 2, 4.0}, HoursCase{"bre209-amenity", 0, 2.0},
-                    HoursCase{"din5034-january", 0, 1.0}, HoursCase{"din5034-equinox", 0, 4.0},
-                    HoursCase{"gb50180-great-cold", 0, 2.0}, HoursCase{"gb50180-great-cold-3h", 0, 3.0},
-                    HoursCase{"gb50180-winter-solstice", 0, 1.0}, HoursCase{"tno-light", 0, 2.0},
-                    HoursCase{"tno-strict", 0, 3.0}, HoursCase{"hague-norm", 0, 2.0}, HoursCase{"nsw-adg", 0, 2.0},
-                    HoursCase{"montreal-consecutive", 0, 1.0}));
+INSTANTIATE_TEST_SUITE_P(Shipped, SunHoursRule,
+                         testing::Values(HoursCase{"en17037-sunlight", 0, 1.5}, HoursCase{"en17037-sunlight", 1, 3.0},
+                                         HoursCase{"en17037-sunlight", 2, 4.0}, HoursCase{"bre209-amenity", 0, 2.0},
+                                         HoursCase{"din5034-january", 0, 1.0}, HoursCase{"din5034-equinox", 0, 4.0},
+                                         HoursCase{"gb50180-great-cold", 0, 2.0},
+                                         HoursCase{"gb50180-great-cold-3h", 0, 3.0},
+                                         HoursCase{"gb50180-winter-solstice", 0, 1.0}, HoursCase{"tno-light", 0, 2.0},
+                                         HoursCase{"tno-strict", 0, 3.0}, HoursCase{"hague-norm", 0, 2.0},
+                                         HoursCase{"nsw-adg", 0, 2.0}, HoursCase{"montreal-consecutive", 0, 1.0}));
 
 TEST_P(SunHoursRule, AtAboveAndBelow) {
     const HoursCase& c = GetParam();
@@ -120,8 +120,8 @@ TEST(ShippedRules, JapanCountsShadowByTrueSolarTime) {
 }
 
 /// Hourly from 8 to 17 o'clock: the middle is 12:30. Hidden for 2.9 h about it: the instants 12 and 13 (and 14 no
-/// more), so 1 h; for 3.1 h: 11, 12, 13, 14, so 3 h. For 2 and a half hours no sampled value exists: the rule's limit lies
-/// between 2 and 3 h, and no hourly scene is at it.
+/// more), so 1 h; for 3.1 h: 11, 12, 13, 14, so 3 h. For 2 and a half hours no sampled value exists: the rule's limit
+/// lies between 2 and 3 h, and no hourly scene is at it.
 TEST(ShippedRules, ZurichCountsHourlyInstants) {
     Rule rule = rule_named("zurich-3h-shadow");
     rule.days.resize(1);
@@ -215,7 +215,8 @@ TEST(ShippedRules, ApshAsksFor25And5Percent) {
             add_screen(quads, kPi + angle, 3.0 * kPi - angle);
             return verdict(rule, criterion, quads, up, settings, &year);
         };
-        // The lattice's error for a slot is part of a step of 3.75° of hour angle: up to 1 % of the year (0.5 % in winter).
+        // The lattice's error for a slot is part of a step of 3.75° of hour angle: up to 1 % of the year (0.5 % in
+        // winter).
         EXPECT_EQ(at_share(share * 1.15), Verdict::pass) << criterion;
         EXPECT_EQ(at_share(share * 0.85), Verdict::fail) << criterion;
     }
@@ -251,12 +252,14 @@ TEST(RuleFiles, FaultsAreNamedWithTheirPlace) {
     using testing::HasSubstr;
     EXPECT_THAT(message_of("{"), HasSubstr("is no JSON"));
     EXPECT_THAT(message_of(R"({"skybake_rule": 2})"), HasSubstr("another format"));
-    EXPECT_THAT(message_of(head + kinds + R"("metrics": ["sun_hour"]})"), HasSubstr("'metrics' is 'sun_hour', not one of"));
+    EXPECT_THAT(message_of(head + kinds + R"("metrics": ["sun_hour"]})"),
+                HasSubstr("'metrics' is 'sun_hour', not one of"));
     EXPECT_THAT(message_of(head + kinds + R"("metrics": ["sun_hours"]})"), HasSubstr("without 'sun'"));
     EXPECT_THAT(message_of(head + kinds + R"("sun": {"days": ["21-03-1"]}})"), HasSubstr("#/sun 'days' has '21-03-1'"));
     EXPECT_THAT(message_of(head + kinds + R"("criterias": []})"), HasSubstr("did you mean 'criteria'?"));
     EXPECT_THAT(message_of(head + R"("receivers": {"kinds": ["wall"]}})"), HasSubstr("not one of ground"));
-    EXPECT_THAT(message_of(head + kinds + R"("criteria": [{"id": "c", "metric": "sky_view_factor", "at_least": 1, "at_most": 2}]})"),
+    EXPECT_THAT(message_of(head + kinds +
+                           R"("criteria": [{"id": "c", "metric": "sky_view_factor", "at_least": 1, "at_most": 2}]})"),
                 HasSubstr("#/criteria/0 has both"));
     std::filesystem::remove(file);
 }

@@ -31,9 +31,9 @@ QuadScene obstruction(double angle_deg) {
     return QuadScene().quad({-60000, -100, -10}, {60000, -100, -10}, {60000, -100, top}, {-60000, -100, top});
 }
 
-/// E_v/E_h of the Moon-Spencer sky above an endless obstruction of angle a. With p the angle about the wall's axis and β
-/// that from the plane across it, sin θ = cos β sin p, the cosine is cos β cos p and dω = cos β dβ dp, so that
-/// E_v = L_z/3 ∫ (π/2 cos p + 8/3 sin p cos p) dp from a to π/2; E_h = 7π/9 L_z.
+/// E_v/E_h of the Moon-Spencer sky above an endless obstruction of angle a. With p the angle about the wall's axis and
+/// β that from the plane across it, sin θ = cos β sin p, the cosine is cos β cos p and dω = cos β dβ dp, so that E_v =
+/// L_z/3 ∫ (π/2 cos p + 8/3 sin p cos p) dp from a to π/2; E_h = 7π/9 L_z.
 double vsc_above(double angle_deg) {
     const double s = std::sin(radians_from_degrees(angle_deg));
     return 100.0 * (kPi / 2.0 * (1.0 - s) + 4.0 / 3.0 * (1.0 - s * s)) / 3.0 / (7.0 * kPi / 9.0);
@@ -53,8 +53,7 @@ TEST(SkyShares, VerticalSkyComponentBehindEndlessObstructions) {
             std::printf("%d directions: %.3f; ", n, static_cast<double>(fewer.sky_component_pct[0]));
         }
         std::printf("VSC above %.0f deg: %.3f %%, closed form %.3f %%\n", row.angle_deg,
-                    static_cast<double>(shares.sky_component_pct[0]),
-                    vsc_above(row.angle_deg));
+                    static_cast<double>(shares.sky_component_pct[0]), vsc_above(row.angle_deg));
         EXPECT_NEAR(shares.sky_component_pct[0], vsc_above(row.angle_deg), 0.1);
     }
 }
@@ -68,7 +67,8 @@ TEST(SkyShares, CanyonFloor) {
             const SkyShares fewer = vessel.shares(sample_at({0, 0, 0}, {0, 0, 1}), n);
             std::printf("%d directions: %.4f; ", n, static_cast<double>(fewer.sky_view_factor[0]));
         }
-        std::printf("canyon %.0f m: %.4f, closed form %.4f\n", static_cast<double>(h), static_cast<double>(shares.sky_view_factor[0]), truth);
+        std::printf("canyon %.0f m: %.4f, closed form %.4f\n", static_cast<double>(h),
+                    static_cast<double>(shares.sky_view_factor[0]), truth);
         EXPECT_NEAR(shares.sky_view_factor[0], truth, 0.002);
     }
 }
@@ -77,7 +77,8 @@ TEST(LightIncidence, IsTheObstructionsAngle) {
     for (const double angle : {0.0, 30.5, 44.5, 60.5}) {
         Vessel vessel(angle > 0.0 ? obstruction(angle) : QuadScene().ground(1, -1000));
         const Sample sample = sample_at({0, 0, 0}, {0, -1, 0});
-        const LightIncidence found = light_incidence({&sample, 1}, vessel.scene.origin, vessel.rays, 0.0, vessel.silent);
+        const LightIncidence found =
+            light_incidence({&sample, 1}, vessel.scene.origin, vessel.rays, 0.0, vessel.silent);
         EXPECT_EQ(found.angle_deg[0], std::ceil(angle));
     }
 }

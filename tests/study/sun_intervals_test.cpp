@@ -30,7 +30,8 @@ TEST(SunDay, DayLengthsAtGraz) {
         CalendarDay day;
         double all_h, above_11_h;
     };
-    for (const Row& row : {Row{{1, 17}, 9.0, 6.0}, Row{{3, 21}, 12.2, 9.9}, Row{{6, 21}, 15.9, 13.2}, Row{{12, 21}, 8.5, 5.3}}) {
+    for (const Row& row :
+         {Row{{1, 17}, 9.0, 6.0}, Row{{3, 21}, 12.2, 9.9}, Row{{6, 21}, 15.9, 13.2}, Row{{12, 21}, 8.5, 5.3}}) {
         const SunDay whole = day_at_graz(row.day), high = day_at_graz(row.day, {.min_elevation_deg = 11.0});
         EXPECT_NEAR(whole.hours(), row.all_h, 0.051) << row.day.month;
         EXPECT_NEAR(high.hours(), row.above_11_h, 0.051) << row.day.month;
@@ -92,7 +93,8 @@ TEST(SunIntervals, AgreeWithBruteForce) {
     }
     std::vector<Sample> samples;
     for (int i = 0; i < 48; ++i)
-        samples.push_back(sample_at({60 * random.next() - 30, 60 * random.next() - 30, 30 * random.next()}, {0, -1, 0}));
+        samples.push_back(
+            sample_at({60 * random.next() - 30, 60 * random.next() - 30, 30 * random.next()}, {0, -1, 0}));
     const SunDay day = day_at_graz({4, 10});
     const SunIntervals found = intervals(samples, day, quads, {.scan_s = 30.0});
     const Scene scene = quads.scene();

@@ -103,7 +103,8 @@ std::vector<AreaPolygon> read_polygons(const std::filesystem::path& path, const 
             areas.push_back(std::move(area));
         }
     }
-    if (areas.empty()) throw InputError(fmt::format("{}: has no polygon. Give areas such as parks as polygons.", path.string()));
+    if (areas.empty())
+        throw InputError(fmt::format("{}: has no polygon. Give areas such as parks as polygons.", path.string()));
     if (box.lo.x > hi.x || box.lo.y > hi.y || box.hi.x < lo.x || box.hi.y < lo.y) {
         throw InputError(fmt::format(
             "{}: its polygons lie at ({:.1f}, {:.1f})…({:.1f}, {:.1f}), the city at ({:.1f}, {:.1f})…({:.1f}, {:.1f}) "
@@ -133,11 +134,11 @@ bool write_geotiff(const std::filesystem::path& path, const ReceiverSet& set, co
     GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GTiff");
     FileReplacement replacement(path);
     const char* options[] = {"COMPRESS=DEFLATE", "PREDICTOR=3", "TILED=YES", nullptr};
-    Dataset file(driver->Create(replacement.part_path().c_str(), width, height, static_cast<int>(bands.size()), GDT_Float32,
-                                const_cast<char**>(options)));
+    Dataset file(driver->Create(replacement.part_path().c_str(), width, height, static_cast<int>(bands.size()),
+                                GDT_Float32, const_cast<char**>(options)));
     if (!file) fail_writing(path);
-    double place[6] = {static_cast<double>(left) * set.cell_m, set.cell_m, 0.0, static_cast<double>(top + 1) * set.cell_m,
-                       0.0, -set.cell_m};
+    double place[6] = {static_cast<double>(left) * set.cell_m,    set.cell_m, 0.0,
+                       static_cast<double>(top + 1) * set.cell_m, 0.0,        -set.cell_m};
     file->SetGeoTransform(place);
     const OGRSpatialReference reference = reference_of(crs);
     if (!reference.IsEmpty()) file->SetSpatialRef(&reference);
@@ -181,8 +182,11 @@ void write_geopackage(const std::filesystem::path& path, const ReceiverSet& set,
         OGRLayer* layer = file->CreateLayer(is_point ? "points" : "cells", reference.IsEmpty() ? nullptr : &reference,
                                             is_point ? wkbPoint25D : wkbPolygon25D, nullptr);
         if (!layer) fail_writing(path);
-        for (const auto& [name, type] : {std::pair{"receiver", OFTString}, {"kind", OFTString}, {"building", OFTString},
-                                         {"storey", OFTInteger}, {"area_m2", OFTReal}}) {
+        for (const auto& [name, type] : {std::pair{"receiver", OFTString},
+                                         {"kind", OFTString},
+                                         {"building", OFTString},
+                                         {"storey", OFTInteger},
+                                         {"area_m2", OFTReal}}) {
             OGRFieldDefn field(name, type);
             layer->CreateField(&field);
         }

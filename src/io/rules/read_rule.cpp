@@ -111,8 +111,9 @@ Metric metric_named(const Node& node, const char* key, const std::string& name) 
 
 CalendarDay day_of(const Node& node, const std::string& text) {
     CalendarDay day;
-    const bool has_form = text.size() == 5 && text[2] == '-' &&
-                          std::all_of(text.begin(), text.end(), [](char c) { return c == '-' || (c >= '0' && c <= '9'); });
+    const bool has_form = text.size() == 5 && text[2] == '-' && std::all_of(text.begin(), text.end(), [](char c) {
+                              return c == '-' || (c >= '0' && c <= '9');
+                          });
     if (has_form) {
         day.month = std::stoi(text.substr(0, 2));
         day.day = std::stoi(text.substr(3));
@@ -166,9 +167,8 @@ Criterion criterion_of(const Node& node) {
     if (criterion.at_least && criterion.at_most) node.fail("has both 'at_least' and 'at_most': write two criteria.");
     if (node.has("or_share_of_before")) criterion.or_share_of_before = node.number("or_share_of_before", 0.0, 1.0);
     criterion.tolerance = node.number_or("tolerance", 0.0, 0.0, 1e6);
-    criterion.over_days =
-        node.word_or<OverDays>("over_days", OverDays::each,
-                               {{"each", OverDays::each}, {"any", OverDays::any}, {"mean", OverDays::mean}});
+    criterion.over_days = node.word_or<OverDays>(
+        "over_days", OverDays::each, {{"each", OverDays::each}, {"any", OverDays::any}, {"mean", OverDays::mean}});
     criterion.area_share = node.number_or("area_share", 1.0, 0.0, 1.0);
     criterion.is_required = node.flag_or("required", true);
     criterion.kinds = kinds_of(node, "kinds");
@@ -211,7 +211,8 @@ Rule read_rule(const std::filesystem::path& path) {
     if (root.has("criteria")) {
         if (!root.at("criteria").is_array()) root.fail("'criteria' must be a list.");
         std::size_t i = 0;
-        for (const json& entry : root.at("criteria")) rule.criteria.push_back(criterion_of(root.item(entry, "criteria", i++)));
+        for (const json& entry : root.at("criteria"))
+            rule.criteria.push_back(criterion_of(root.item(entry, "criteria", i++)));
     }
     const std::vector<Metric> metrics = rule.all_metrics();
     if (metrics.empty()) root.fail("has neither 'criteria' nor 'metrics': nothing to compute.");

@@ -21,17 +21,25 @@ json group_json(const Rule& rule, const Study& study, const Group& group) {
                                          {"area_fail", g.area_fail},
                                          {"verdict", name_of(g.verdict)}};
     }
-    return {{"level", name_of(group.level)}, {"id", group.id},           {"kind", name_of(group.kind)},
-            {"samples", group.samples},      {"area_m2", group.area_m2}, {"verdict", name_of(group.verdict)},
-            {"values", columns},             {"criteria", criteria}};
+    return {{"level", name_of(group.level)},
+            {"id", group.id},
+            {"kind", name_of(group.kind)},
+            {"samples", group.samples},
+            {"area_m2", group.area_m2},
+            {"verdict", name_of(group.verdict)},
+            {"values", columns},
+            {"criteria", criteria}};
 }
 
 json rule_json(const Rule& rule, const StudyFacts& facts) {
     json criteria = json::array();
     for (const Criterion& c : rule.criteria) {
-        json entry = {{"id", c.id},           {"text", c.text},
-                      {"metric", name_of(c.metric)}, {"unit", unit_of(c.metric)},
-                      {"tolerance", c.tolerance},    {"area_share", c.area_share},
+        json entry = {{"id", c.id},
+                      {"text", c.text},
+                      {"metric", name_of(c.metric)},
+                      {"unit", unit_of(c.metric)},
+                      {"tolerance", c.tolerance},
+                      {"area_share", c.area_share},
                       {"required", c.is_required}};
         if (c.at_least) entry["at_least"] = *c.at_least;
         if (c.at_most) entry["at_most"] = *c.at_most;

@@ -49,14 +49,19 @@ class Lines {
 
 const char* unit_of(Metric metric) {
     switch (metric) {
-        case Metric::sky_view_factor: return "1";
+        case Metric::sky_view_factor:
+            return "1";
         case Metric::sky_component_pct:
         case Metric::sunshine_pct:
-        case Metric::winter_sunshine_pct: return "%";
+        case Metric::winter_sunshine_pct:
+            return "%";
         case Metric::irradiation_kwh_m2:
-        case Metric::reflected_kwh_m2: return "kWh/m2";
-        case Metric::light_incidence_deg: return "deg";
-        default: return "h";
+        case Metric::reflected_kwh_m2:
+            return "kWh/m2";
+        case Metric::light_incidence_deg:
+            return "deg";
+        default:
+            return "h";
     }
 }
 
