@@ -54,7 +54,6 @@ void add_point_options(CLI::App* verb, BounceOptions& options) {
         ->type_name("N")
         ->check(CLI::Range(2, 1 << 30))
         ->capture_default_str();
-    verb->add_option("--lamps", options.lamps, "JSON with point and spot lights")->group(kGroup)->type_name("FILE");
 }
 
 Indirect indirect_of(const BounceOptions& options) {

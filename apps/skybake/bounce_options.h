@@ -24,12 +24,11 @@ struct BounceOptions {
     int nearest = 100;
     std::string area{kPhotonAreaNames[0]};
     int feelers = 8;
-    std::string lamps;  // file; empty: none
 };
 
 /// --indirect, --bounces, --photons, --nearest, --area and --feelers.
 void add_bounce_options(CLI::App* verb, BounceOptions& options);
-/// --paths and --lamps.
+/// --paths.
 void add_point_options(CLI::App* verb, BounceOptions& options);
 
 /// Throws InputError for a method that there is not, naming the nearest.

@@ -9,6 +9,7 @@
 #include "base/threads.h"
 #include "bounce_options.h"
 #include "city_options.h"
+#include "lamp_options.h"
 #include "light_options.h"
 #include "program.h"
 #include "viewer_assets.h"
@@ -21,6 +22,8 @@ struct Options {
     CityOptions city;
     LightOptions light;
     BounceOptions bounce;
+    LampOptions lamps;
+    float lamp_cutoff_lx = LampChartOptions().cutoff_lx;
     std::filesystem::path output;
     float texel_m = 0.5f;
     std::string sampling{kSkySamplingNames[0]};
@@ -45,6 +48,11 @@ std::vector<std::pair<std::string, std::string>> settings_of(const Options& opti
         {"texel", fmt::format("{}", options.texel_m)},
         {"sampling", options.sampling},
         {"tolerance", fmt::format("{}", options.tolerance)}};
+    if (!options.lamps.file.empty()) {
+        settings.emplace_back("lamps", options.lamps.file.filename().string());
+        settings.emplace_back("lamps-origin", options.lamps.origin);
+        settings.emplace_back("lamp-cutoff", fmt::format("{}", options.lamp_cutoff_lx));
+    }
     const auto bounce = settings_of(options.bounce);
     settings.insert(settings.end(), bounce.begin(), bounce.end());
     return settings;
@@ -71,6 +79,10 @@ int run(const CommonOptions& common, const Options& options) {
     bake.bake.sampling = static_cast<SkySampling>(name - kSkySamplingNames.begin());
     bake.bake.tolerance = options.tolerance;
     if (indirect == Indirect::photons) bake.bake.bounces = photons_of(options.bounce, common.seed);
+    bake.lamps = options.lamps.file;
+    bake.lamps_origin = origin_of(options.lamps);
+    bake.bake.lamp_sampling.cutoff_lx = options.lamp_cutoff_lx;
+    if (bake.bake.sampling == SkySampling::full) bake.bake.lamp_sampling.sampling = LampSampling::full;
     bake.seed = common.seed;
     bake.version = SKYBAKE_VERSION;
     bake.settings = settings_of(options);
@@ -96,6 +108,13 @@ int run(const CommonOptions& common, const Options& options) {
                                 static_cast<double>(report.rays.sky) * 1e-6, report.rays_per_second * 1e-6,
                                 100.0 * report.evaluated_fraction, 100.0 * report.predicted_rmse_over_mean));
     }
+    if (report.lamps > 0) {
+        say(common, fmt::format("lamps: {}, {:.1f} million rays at {:.1f} million a second; {:.1f} % of texels times "
+                                "lamps in reach by 16 rays",
+                                report.lamps, static_cast<double>(report.rays.lamp) * 1e-6,
+                                static_cast<double>(report.rays.lamp) * 1e-6 / std::max(s.lamps, 1e-9),
+                                100.0 * report.lamps_refined_fraction));
+    }
     if (bake.bake.bounces) {
         const PhotonBalance& p = report.photons;
         say(common, fmt::format("photons: {:.1f} million rays at {:.1f} million a second, {:.1f} million at rest; of "
@@ -107,11 +126,12 @@ int run(const CommonOptions& common, const Options& options) {
                                 100.0 * p.escaped / p.emitted, 100.0 * p.at_limit / p.emitted,
                                 100.0 * report.indirect_evaluated_fraction));
     }
-    say(common, fmt::format("{:.1f} s: read {:.1f}, build {:.1f}, charts {:.1f}, sky {:.1f}, sun {:.1f}, photons "
-                            "{:.1f}, gather {:.1f}, finish "
-                            "{:.1f}, write {:.1f}; {:.0f} MB of memory",
-                            s.total, s.read, s.build, s.charts, s.sky, s.sun, s.photons, s.gather, s.finish, s.write,
-                            static_cast<double>(report.peak_rss_bytes) * 1e-6));
+    say(common,
+        fmt::format("{:.1f} s: read {:.1f}, build {:.1f}, charts {:.1f}, sky {:.1f}, sun {:.1f}, lamps {:.1f}, photons "
+                    "{:.1f}, gather {:.1f}, finish "
+                    "{:.1f}, write {:.1f}; {:.0f} MB of memory",
+                    s.total, s.read, s.build, s.charts, s.sky, s.sun, s.lamps, s.photons, s.gather, s.finish, s.write,
+                    static_cast<double>(report.peak_rss_bytes) * 1e-6));
     say(common, fmt::format("Look at it: skybake view {}", options.output.string()));
     if (common.wants_json) {
         nlohmann::json object = to_json(report);
@@ -136,6 +156,7 @@ nlohmann::json to_json(const BakeReport& report) {
             {"rays",
              {{"sun", report.rays.sun},
               {"sky", report.rays.sky},
+              {"lamp", report.rays.lamp},
               {"photon", report.rays.photon},
               {"feeler", report.rays.feeler}}},
             {"seconds",
@@ -144,6 +165,7 @@ nlohmann::json to_json(const BakeReport& report) {
               {"charts", s.charts},
               {"sun", s.sun},
               {"sky", s.sky},
+              {"lamps", s.lamps},
               {"photons", s.photons},
               {"gather", s.gather},
               {"finish", s.finish},
@@ -152,6 +174,8 @@ nlohmann::json to_json(const BakeReport& report) {
             {"rays_per_second", report.rays_per_second},
             {"evaluated_fraction", report.evaluated_fraction},
             {"predicted_rmse_over_mean", report.predicted_rmse_over_mean},
+            {"lamps", report.lamps},
+            {"lamps_refined_fraction", report.lamps_refined_fraction},
             {"indirect_evaluated_fraction", report.indirect_evaluated_fraction},
             {"photons_stored", p.stored},
             {"photon_lumen",
@@ -162,15 +186,24 @@ nlohmann::json to_json(const BakeReport& report) {
 void add_bake(CLI::App& app, Program& program) {
     const auto options = std::make_shared<Options>();
     CLI::App* verb = add_verb(
-        app, program, "bake", "Computes sun and sky for every surface of a city, into lightmaps with a walkthrough.",
+        app, program, "bake",
+        "Computes sun, sky and lamps for every surface of a city, into lightmaps with a walkthrough.",
         "  skybake bake town.city.json -o lit --at 2026-06-21T12:00+02:00\n"
         "  skybake bake delft.city.json -o lit --at 2026-03-21T08:00Z/2026-03-21T16:00Z/2h --ground plane\n"
         "  skybake bake city.jsonl -o lit --sun-direction 200,35 --texel 0.25 --sampling full\n"
-        "  skybake bake town.city.json -o lit --sun-direction 200,35 --indirect photons --photons 2000000",
+        "  skybake bake town.city.json -o lit --sun-direction 200,35 --indirect photons --photons 2000000\n"
+        "  skybake bake town.city.json -o lit --at 2026-06-21T23:30+02:00 --lamps town.lamps.json --indirect photons",
         [&program, options] { return run(program.common, *options); });
     add_city_options(verb, options->city);
     add_light_options(verb, options->light);
     add_bounce_options(verb, options->bounce);
+    add_lamp_options(verb, options->lamps);
+    verb->add_option("--lamp-cutoff", options->lamp_cutoff_lx,
+                     "lamps that together give a place no more than this are left out there, lux")
+        ->group("Lamps")
+        ->type_name("LX")
+        ->check(CLI::Range(0.0, 1e6))
+        ->capture_default_str();
     verb->add_option("-o,--output", options->output, "folder to write")->required();
     verb->add_option("--texel", options->texel_m, "length of a lightmap texel, metres")
         ->capture_default_str()
@@ -178,7 +211,7 @@ void add_bake(CLI::App& app, Program& program) {
     verb->add_option(
             "--sampling", options->sampling,
             "projected: the shadows of everything on each surface, exact; hierarchical: rays from some texels, "
-            "the paper's way; full: a ray from every texel in every direction")
+            "the paper's way; full: a ray from every texel in every direction, 16 to every lamp")
         ->capture_default_str()
         ->check(CLI::IsMember(std::vector<std::string>(kSkySamplingNames.begin(), kSkySamplingNames.end())));
     verb->add_option("--tolerance", options->tolerance, "error that the hierarchy may add to the skylight, relative")

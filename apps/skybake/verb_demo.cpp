@@ -15,7 +15,10 @@ struct Options {
     std::string folder = "demo";
     int buildings = 250;
     double texel_m = 0.25;
-    std::string at = "2026-06-21T07:00+02:00,2026-06-21T10:00+02:00,2026-06-21T13:00+02:00,2026-06-21T18:00+02:00";
+    // Morning to evening, and a night that the lamps light.
+    std::string at =
+        "2026-06-21T07:00+02:00,2026-06-21T10:00+02:00,2026-06-21T13:00+02:00,2026-06-21T18:00+02:00,"
+        "2026-06-21T23:00+02:00";
     int port = 0;
     bool stays_closed = false;
     bool only_bakes = false;
@@ -25,11 +28,12 @@ int run(const CommonOptions& common, const Options& options) {
     viewer_assets();  // say at once when the walkthrough is not built
     const std::filesystem::path folder = options.folder;
     std::filesystem::create_directories(folder);
-    const std::string city = (folder / "town.city.json").string(), lit = (folder / "lit").string();
+    const std::string city = (folder / "town.city.json").string(), lamps = (folder / "town.lamps.json").string(),
+                      lit = (folder / "lit").string();
     std::vector<std::vector<std::string>> commands{
         {"town", "-o", city, "--buildings", std::to_string(options.buildings), "--seed", std::to_string(common.seed)},
-        {"bake", city, "-o", lit, "--texel", fmt::format("{}", options.texel_m), "--at", options.at, "--threads",
-         std::to_string(common.threads)}};
+        {"bake", city, "-o", lit, "--texel", fmt::format("{}", options.texel_m), "--at", options.at, "--lamps", lamps,
+         "--threads", std::to_string(common.threads)}};
     if (!options.only_bakes) {
         commands.push_back({"view", lit, "--port", std::to_string(options.port)});
         if (options.stays_closed) commands.back().push_back("--no-open");

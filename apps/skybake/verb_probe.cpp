@@ -10,8 +10,9 @@
 #include "base/threads.h"
 #include "bounce_options.h"
 #include "city_options.h"
-#include "io/lamps/lamps_json.h"
+#include "io/lamps/read_lamps.h"
 #include "io/points/points_csv.h"
+#include "lamp_options.h"
 #include "light/point_light.h"
 #include "light_options.h"
 #include "program.h"
@@ -24,6 +25,7 @@ struct Options {
     CityOptions city;
     LightOptions light;
     BounceOptions bounce;
+    LampOptions lamps;
     std::filesystem::path points;
     std::filesystem::path output;
 };
@@ -78,7 +80,9 @@ int run(const CommonOptions& common, const Options& options) {
     const std::vector<PointLight> light =
         light_points(receivers, sampler, 0, daylight.sun, rays, {options.light.sky_samples, 64});
     LightSources sources{daylight, {}};
-    if (!options.bounce.lamps.empty()) sources.lamps = io::read_lamps(options.bounce.lamps, scene.origin);
+    if (!options.lamps.file.empty())
+        sources.lamps =
+            io::read_lamps(options.lamps.file, scene.origin, origin_of(options.lamps), loaded.findings).lamps;
     const std::vector<Rgb> by_lamps = light_points_by_lamps(receivers, sources.lamps, rays);
     std::vector<IndirectLight> reflected(receivers.size());
     nlohmann::json bounces;
@@ -138,6 +142,7 @@ void add_probe(CLI::App& app, Program& program) {
     add_light_options(verb, options->light);
     add_bounce_options(verb, options->bounce);
     add_point_options(verb, options->bounce);
+    add_lamp_options(verb, options->lamps);
     verb->add_option("--points", options->points, "CSV with the points")->required();
     verb->add_option("-o,--output", options->output, "CSV to write; without it, stdout");
 }

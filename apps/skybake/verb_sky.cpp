@@ -1,6 +1,5 @@
 // skybake sky: luminance and colour of the sky in asked directions, as a panorama, and summed up.
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <charconv>
@@ -19,6 +18,7 @@
 #include "io/image/image.h"
 #include "light_options.h"
 #include "program.h"
+#include "sky/sky_panorama.h"
 #include "sky/solar_position.h"
 #include "weather_option.h"
 
@@ -166,56 +166,6 @@ nlohmann::json directions_json(const SkyModel& sky, const Queries& queries) {
     return list;
 }
 
-/// A picture of a sky, black where it shows none: the mean of `kSamples`² points a pixel for a picture of a sky, whose
-/// sun is smaller than a pixel, else its middle.
-template <typename Direction>
-io::PictureRgb picture_of(const SkyModel& sky, int width, int height, const Direction& direction_at) {
-    io::PictureRgb picture{width, height, {}};
-    picture.pixels.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-    constexpr int kSamples = 4;
-    const int samples = std::holds_alternative<ImageSky>(sky) ? kSamples : 1;
-    tbb::parallel_for(0, height, [&](int row) {
-        for (int column = 0; column < width; ++column) {
-            Rgb sum(0.0f);
-            for (int i = 0; i < samples * samples; ++i) {
-                const std::optional<Vec3d> direction =
-                    direction_at(column + (i % samples + 0.5) / samples, row + (i / samples + 0.5) / samples);
-                if (direction) sum += sky_luminance(sky, Vec3f(*direction));
-            }
-            picture.pixels[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
-                           static_cast<std::size_t>(column)] = sum / static_cast<float>(samples * samples);
-        }
-    });
-    return picture;
-}
-
-/// The whole sphere, 2:1: row 0 the zenith, the last row the nadir, columns clockwise from true north; black below the
-/// horizon. What --sky image:FILE reads.
-io::PictureRgb equirectangular(const SkyModel& sky, int width) {
-    const int height = width / 2;
-    return picture_of(sky, width, height, [&](double x, double y) -> std::optional<Vec3d> {
-        return world_direction(2.0 * kPi * x / width, kPi * (0.5 - y / height), 0.0);
-    });
-}
-
-/// The dome as one sees it lying on one's back, the head to the north: north on top, east on the left, the zenith in
-/// the middle, the zenith angle growing evenly to the horizon on the circle; black outside.
-io::PictureRgb fisheye(const SkyModel& sky, int width) {
-    return picture_of(sky, width, width, [&](double x, double y) -> std::optional<Vec3d> {
-        const double right = 2.0 * x / width - 1.0;
-        const double up = 1.0 - 2.0 * y / width;
-        const double radius = std::hypot(right, up);
-        if (radius > 1.0) return std::nullopt;
-        Vec3d direction = world_direction(std::atan2(-right, up), kPi / 2.0 * (1.0 - radius), 0.0);
-        direction.z = std::max(direction.z, 0.0);
-        return direction;
-    });
-}
-
-io::PictureRgb panorama(const SkyModel& sky, const SkyVerbOptions& options, int width) {
-    return options.projection == "fisheye" ? fisheye(sky, width) : equirectangular(sky, width);
-}
-
 /// The pictures side by side; of an equirectangular one only the upper half, one above the other, so that the days'
 /// horizons line up.
 io::PictureRgb strip(std::vector<io::PictureRgb> pictures, bool is_side_by_side) {
@@ -234,11 +184,13 @@ io::PictureRgb strip(std::vector<io::PictureRgb> pictures, bool is_side_by_side)
     return whole;
 }
 
-/// The logarithmic mean of the luminance where it is not black; nothing for a black picture.
+/// The logarithmic mean of the sky's luminance, of an equirectangular picture the upper half's, where it is not black;
+/// nothing for a black sky.
 std::optional<double> log_average(const io::PictureRgb& picture) {
     double log_sum = 0.0;
     std::size_t lit = 0;
-    for (const Rgb& pixel : picture.pixels) {
+    const bool has_land = picture.width == 2 * picture.height;
+    for (const Rgb& pixel : std::span(picture.pixels).first(picture.pixels.size() / (has_land ? 2 : 1))) {
         const double value = luminance(pixel);
         if (!(value > 0.0)) continue;
         log_sum += std::log(value);
@@ -279,7 +231,7 @@ io::Image8 tone_mapped(const io::PictureRgb& picture, std::optional<double> aver
 
 /// Panorama of one instant, or a strip of several. Returns what it shows, for the user.
 std::string write_picture(const SkyVerbOptions& options, std::span<const Daylight> daylights,
-                          const SkySettings& settings) {
+                          const DaylightSettings& settings) {
     const bool is_fisheye = options.projection == "fisheye";
     const bool is_strip = daylights.size() > 1;
     const int width = options.width.value_or(is_strip ? (is_fisheye ? 256 : 1024) : (is_fisheye ? 1024 : 2048));
@@ -287,7 +239,8 @@ std::string write_picture(const SkyVerbOptions& options, std::span<const Dayligh
     std::string instants;
     std::optional<double> average;  // of the brightest sky: a day's strip is exposed for the day, not for its dusk
     for (const Daylight& daylight : daylights) {
-        pictures.push_back(panorama(daylight.sky, options, width));
+        pictures.push_back({width, is_fisheye ? width : width / 2, {}});
+        pictures.back().pixels = is_fisheye ? fisheye(daylight, width) : equirectangular(daylight, width);
         average = std::max(average, log_average(pictures.back()));
         instants += (instants.empty() ? "" : ", ") + daylight.label;
     }
@@ -296,11 +249,13 @@ std::string write_picture(const SkyVerbOptions& options, std::span<const Dayligh
     if (path.extension() == ".png") {
         io::write_png(path, tone_mapped(picture, average));
     } else {
-        io::write_exr_rgb(path, picture,
-                          {{"skybake.sky", to_text(settings)},
-                           {"skybake.instant", instants},
-                           {"skybake.projection", options.projection},
-                           {"skybake.unit", "cd/m2 per channel, linear Rec. 709"}});
+        io::write_exr_rgb(
+            path, picture,
+            {{"skybake.sky", to_text(settings.sky)},
+             {"skybake.instant", instants},
+             {"skybake.projection", options.projection},
+             {"skybake.sun", settings.sun == SunShape::none ? "left out" : "in the picture, where it has a beam"},
+             {"skybake.unit", "cd/m2 per channel, linear Rec. 709"}});
     }
     const std::string one = is_fisheye ? "fisheye, equidistant, north on top, east on the left, zenith in the middle"
                                        : "equirectangular, zenith on top, true north at the left edge, clockwise";
@@ -393,7 +348,7 @@ int run_sky(const SkyVerbOptions& options, const CommonOptions& common) {
         }
         queries = read_directions(options.directions);
     }
-    if (!options.picture.empty()) say(common, write_picture(options, daylights, settings.sky));
+    if (!options.picture.empty()) say(common, write_picture(options, daylights, settings));
     if (common.wants_json) {
         std::vector<nlohmann::json> entries;
         for (std::size_t i = 0; i < daylights.size(); ++i)
@@ -425,13 +380,19 @@ void add_sky(CLI::App& app, Program& program) {
         "  skybake sky --weather graz.epw --at 2026-06-21T12:00+02:00",
         [options, &program] { return run_sky(*options, program.common); });
     add_daylight_options(verb, options->light);
+    verb->add_option("--sun", options->light.sun,
+                     "none leaves the sun's disc, and its light on the land, out of pictures")
+        ->group("Light")
+        ->type_name("SHAPE")
+        ->capture_default_str();
     verb->add_option("--directions", options->directions,
                      "CSV with azimuth_deg,elevation_deg; answers as CSV on stdout; - is stdin")
         ->type_name("CSV");
     verb->add_option("-o,--output", options->picture,
                      "panorama, or a strip of several instants: .png (tone mapped) or .exr (cd/m2 per channel)")
         ->type_name("FILE");
-    verb->add_option("--projection", options->projection, "equirectangular (whole sphere) or fisheye (the dome)")
+    verb->add_option("--projection", options->projection,
+                     "equirectangular (whole sphere, with land of albedo 0.2) or fisheye (the dome)")
         ->type_name("NAME")
         ->capture_default_str();
     verb->add_option("--width", options->width,

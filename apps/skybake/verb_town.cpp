@@ -11,6 +11,7 @@
 #include "city/town/town.h"
 #include "io/cityjson/write_city_json.h"
 #include "io/image/image.h"
+#include "io/lamps/write_town_lamps.h"
 #include "program.h"
 
 namespace skybake::cli {
@@ -43,6 +44,13 @@ Counts count(const CityModel& city) {
     return counts;
 }
 
+/// town.city.json and town.jsonl both have town.lamps.json.
+std::filesystem::path lamps_beside(const std::filesystem::path& city) {
+    std::filesystem::path stem = city.stem();
+    if (stem.extension() == ".city") stem = stem.stem();
+    return city.parent_path() / (stem.string() + ".lamps.json");
+}
+
 int run(const CommonOptions& common, Options options) {
     const std::filesystem::path path = options.output;
     if (!options.variant.empty()) options.town.variant = TownVariant::with_tower;
@@ -70,14 +78,16 @@ int run(const CommonOptions& common, Options options) {
         picture_bytes += std::filesystem::file_size(pictures / image.name);
     }
     io::write_city_json(town.city, path);
+    const std::filesystem::path lamps = lamps_beside(path);
+    io::write_town_lamps(lamps, town.lamps);
 
     const Counts counts = count(town.city);
     const std::uint64_t bytes = std::filesystem::file_size(path);
-    say(common,
-        fmt::format("{}: {} buildings, {} surfaces, {} triangles, {:.1f} MB and {} pictures of {:.1f} MB, in {:.1f} s",
-                    path.string(), counts.buildings, counts.surfaces, counts.triangles,
-                    static_cast<double>(bytes) * 1e-6, town.images.size(), static_cast<double>(picture_bytes) * 1e-6,
-                    seconds()));
+    say(common, fmt::format("{}: {} buildings, {} surfaces, {} triangles, {:.1f} MB and {} pictures of {:.1f} MB, {} "
+                            "lamps, in {:.1f} s",
+                            path.string(), counts.buildings, counts.surfaces, counts.triangles,
+                            static_cast<double>(bytes) * 1e-6, town.images.size(),
+                            static_cast<double>(picture_bytes) * 1e-6, town.lamps.size(), seconds()));
     if (common.wants_json) {
         print_json({{"output", path.string()},
                     {"buildings", counts.buildings},
@@ -85,6 +95,8 @@ int run(const CommonOptions& common, Options options) {
                     {"surfaces", counts.surfaces},
                     {"triangles", counts.triangles},
                     {"textures", town.images.size()},
+                    {"lamps", lamps.string()},
+                    {"lamp_count", town.lamps.size()},
                     {"bytes", bytes},
                     {"texture_bytes", picture_bytes},
                     {"crs", town.city.crs},
@@ -104,8 +116,10 @@ void add_town(CLI::App& app, Program& program) {
                               "  skybake town -o big.city.jsonl --buildings 10000 --seed 7\n"
                               "  skybake town -o plan.city.json --variant with-tower",
                               [&program, options] { return run(program.common, *options); });
-    verb->add_option("-o,--output", options->output,
-                     "file to write; CityJSONSeq when it ends in .jsonl; pictures go to textures/ beside it")
+    verb->add_option(
+            "-o,--output", options->output,
+            "file to write; CityJSONSeq when it ends in .jsonl; pictures go to textures/ beside it, street lamps "
+            "to NAME.lamps.json")
         ->required();
     verb->add_option("--buildings", options->town.buildings, "buildings, landmarks among them")
         ->capture_default_str()

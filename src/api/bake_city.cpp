@@ -10,6 +10,7 @@
 #include "api/default_views.h"
 #include "api/load_albedo.h"
 #include "base/error.h"
+#include "io/lamps/read_lamps.h"
 #include "sky/sky_panorama.h"
 #include "sky/utc_time.h"
 
@@ -59,6 +60,8 @@ io::BakeDescription describe(const BakeCityOptions& options, const LoadedCity& l
         if (k < options.daylight.instants.size()) instant.utc = to_iso8601({options.daylight.instants[k].utc, 0});
         instant.sky_model = to_text(sky_at(options.daylight, k));
         instant.sky_panorama = sky_panorama(daylights[k].sky, io::kPanoramaWidth, io::kPanoramaHeight);
+        instant.land_luminance = land_luminance(daylights[k]);
+        if (!std::holds_alternative<NoSky>(daylights[k].sky)) instant.air = air_under(daylights[k]);
         description.instants.push_back(std::move(instant));
     }
     return description;
@@ -104,6 +107,12 @@ BakeCityResult bake_city(const BakeCityOptions& options, Progress& progress) {
         throw InputError(fmt::format("{}: no surface is left to light; see the findings of skybake check.",
                                      options.files.front().string()));
     if (options.bake.bounces) load_albedo_images(scene, result.findings, progress);
+    BakeOptions bake = options.bake;
+    io::LampFile lamps;
+    if (!options.lamps.empty()) {
+        lamps = io::read_lamps(options.lamps, scene.origin, options.lamps_origin, result.findings);
+        bake.lamps = lamps.lamps;
+    }
     const RayScene rays(scene);
     result.report.seconds.build = seconds_since(build_begin);
 
@@ -117,11 +126,12 @@ BakeCityResult bake_city(const BakeCityOptions& options, Progress& progress) {
     result.report.texels = atlas.texel_count();
     result.report.texel_m = static_cast<double>(options.texel_m);
 
-    const Lightmaps light = bake_lightmaps(scene, atlas, rays, daylights, options.bake, progress, result.report);
+    const Lightmaps light = bake_lightmaps(scene, atlas, rays, daylights, bake, progress, result.report);
 
     const auto write_begin = Clock::now();
-    const io::BakeDescription description =
+    io::BakeDescription description =
         describe(options, loaded, rays, daylights, default_views(scene, atlas, light, rays));
+    description.inputs.insert(description.inputs.end(), lamps.files.begin(), lamps.files.end());
     result.written =
         io::write_bake(options.output, {scene, atlas, light, description, result.report, result.findings}, progress);
     result.report.seconds.write = seconds_since(write_begin);

@@ -23,6 +23,8 @@ struct BakeCityOptions {
     std::vector<std::pair<std::string, Rgb>> albedo;  // by the name of the surface type, and "default"
     float texel_m = 0.5f;
     BakeOptions bake;
+    std::filesystem::path lamps;        // file; empty: none, or those of `bake`
+    std::optional<Vec3d> lamps_origin;  // io::read_lamps
     std::uint64_t seed = 0;
     std::string version;
     std::vector<std::pair<std::string, std::string>> settings;  // as given, for the manifest

@@ -15,6 +15,8 @@
 #include "atlas/chart_samples.h"
 #include "bake/finish_chart.h"
 #include "bake/indirect_chart.h"
+#include "bake/projection_tile.h"
+#include "bake/shadow_projection.h"
 #include "bake/sky_tile.h"
 #include "bake/sun_chart.h"
 #include "base/check.h"
@@ -88,7 +90,13 @@ class Baker {
   public:
     Baker(const Scene& scene, const Atlas& atlas, const RayScene& rays, std::span<const Daylight> instants,
           const BakeOptions& options, Progress& progress)
-        : scene_(scene), atlas_(atlas), rays_(rays), options_(options), progress_(progress), sampler_(instants) {
+        : scene_(scene),
+          atlas_(atlas),
+          rays_(rays),
+          options_(options),
+          progress_(progress),
+          sampler_(instants),
+          lamps_(options_.lamps) {
         if (options.sampling == SkySampling::projected) occluders_.emplace(scene);
         lightmaps_.pages.resize(atlas.pages.size());
         for (std::size_t p = 0; p < atlas.pages.size(); ++p) {
@@ -99,6 +107,7 @@ class Baker {
             page.state.assign(count, TexelState::empty);
             page.chart.assign(count, ChartId());
             page.sky_view_factor.assign(count, 0.0f);
+            page.lamps.assign(options.lamps.empty() ? 0 : count, Rgb(0.0f));
         }
         for (const Daylight& daylight : instants) {
             BakedInstant& instant = lightmaps_.instants.emplace_back(BakedInstant{daylight, {}});
@@ -124,15 +133,21 @@ class Baker {
         const double join = std::chrono::duration<double>(Clock::now() - join_begin).count();
 
         // The stages run interleaved on all threads: each gets its share of the wall clock.
-        const double busy =
-            sky_clock_.seconds() + sun_clock_.seconds() + gather_clock_.seconds() + finish_clock_.seconds();
+        const double busy = sky_clock_.seconds() + sun_clock_.seconds() + lamp_clock_.seconds() +
+                            gather_clock_.seconds() + finish_clock_.seconds();
         const double scale = busy > 0.0 ? wall / busy : 0.0;
         report.seconds.sky = scale * sky_clock_.seconds();
         report.seconds.sun = scale * sun_clock_.seconds();
+        report.seconds.lamps = scale * lamp_clock_.seconds();
         report.seconds.gather = scale * gather_clock_.seconds();
         report.seconds.finish = scale * finish_clock_.seconds() + join;
         report.rays.sky = statistics_.rays;
         report.rays.sun = sun_rays_;
+        report.rays.lamp = lamp_statistics_.rays;
+        report.lamps = options_.lamps.size();
+        if (lamp_statistics_.pairs > 0)
+            report.lamps_refined_fraction =
+                static_cast<double>(lamp_statistics_.refined) / static_cast<double>(lamp_statistics_.pairs);
         report.rays.feeler = feature_rays_ + buried_rays_ + indirect_statistics_.rays;
         if (indirect_statistics_.texels > 0)
             report.indirect_evaluated_fraction =
@@ -161,7 +176,8 @@ class Baker {
         const double area = surface_area(scene_);
         maps_.reserve(lightmaps_.instants.size());  // the gatherers point into it
         for (const BakedInstant& instant : lightmaps_.instants) {
-            PhotonRun run = trace_photons({instant.daylight, {}}, scene_, rays_, options_.bounces->photons, progress_);
+            PhotonRun run =
+                trace_photons({instant.daylight, options_.lamps}, scene_, rays_, options_.bounces->photons, progress_);
             report.rays.photon += run.ledger.rays;
             report.photons.emitted += run.ledger.emitted;
             report.photons.absorbed += run.ledger.absorbed;
@@ -193,7 +209,7 @@ class Baker {
                 options_.sampling == SkySampling::projected && can_project(chart.normal, dome.directions[j]);
             (is_projected ? bundled : others).push_back(j);
         }
-        DirectionBundles bundles(dome.directions, bundled);
+        NeighbourRuns bundles(dome.directions, bundled, ShadowProjector::kBundle);
         return {std::move(dome), std::move(bundles), std::move(others)};
     }
 
@@ -225,6 +241,7 @@ class Baker {
             }
             sun_rays_ += ray_count;
         }
+        if (!options_.lamps.empty()) lamp_clock_.measure([&] { light_by_lamps(chart, samples, light); });
         if (options_.bounces) gather_clock_.measure([&] { gather_chart(chart, samples, light); });
         finish_clock_.measure([&] {
             std::uint64_t ray_count = 0;
@@ -238,13 +255,21 @@ class Baker {
         progress_.advance(count);
     }
 
+    void light_by_lamps(const Chart& chart, const ChartSamples& samples, ChartLight& light) {
+        LampStatistics statistics;
+        light.lamps = light_lamps(scene_, chart, samples, rays_, lamps_, options_.lamp_sampling, statistics);
+        const std::lock_guard lock(statistics_mutex_);
+        lamp_statistics_.add(statistics);
+    }
+
     void gather_chart(const Chart& chart, const ChartSamples& samples, ChartLight& light) {
         const float tolerance = options_.sampling == SkySampling::full ? 0.0f : options_.tolerance;
         std::vector<float> direct_lx(samples.position.size());
         for (std::size_t k = 0; k < lightmaps_.instants.size(); ++k) {
             const Rgb beam = lightmaps_.instants[k].daylight.sun.normal_illuminance;
             for (std::size_t i = 0; i < direct_lx.size(); ++i)
-                direct_lx[i] = luminance(light.sky[k][i] + light.sun_cosine[k][i] * beam);
+                direct_lx[i] = luminance(light.sky[k][i] + light.sun_cosine[k][i] * beam) +
+                               (light.lamps.empty() ? 0.0f : luminance(light.lamps[i]));
             IndirectStatistics statistics;
             light.indirect.push_back(
                 light_indirect(scene_, chart, samples, gatherers_[k], direct_lx, tolerance, statistics));
@@ -359,6 +384,7 @@ class Baker {
     BakeOptions options_;
     Progress& progress_;
     DomeSampler sampler_;
+    LampTree lamps_;                         // over options_.lamps
     std::optional<OccluderTree> occluders_;  // for SkySampling::projected
     Lightmaps lightmaps_;
     std::mutex statistics_mutex_;
@@ -366,7 +392,8 @@ class Baker {
     std::vector<PhotonMap> maps_;            // [instant]; none without bounces
     std::vector<PhotonGatherer> gatherers_;  // [instant]
     IndirectStatistics indirect_statistics_;
-    StageClock sky_clock_, sun_clock_, gather_clock_, finish_clock_;
+    LampStatistics lamp_statistics_;
+    StageClock sky_clock_, sun_clock_, lamp_clock_, gather_clock_, finish_clock_;
     std::atomic<std::uint64_t> sun_rays_{0}, feature_rays_{0}, buried_rays_{0};
 };
 

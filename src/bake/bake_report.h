@@ -10,11 +10,13 @@ struct RayCounts {
     std::uint64_t sky = 0;
     std::uint64_t photon = 0;
     std::uint64_t feeler = 0;
+    std::uint64_t lamp = 0;
 };
 
 /// Wall-clock seconds of each stage.
 struct StageSeconds {
-    double read = 0, build = 0, charts = 0, sun = 0, sky = 0, photons = 0, gather = 0, finish = 0, write = 0, total = 0;
+    double read = 0, build = 0, charts = 0, sun = 0, sky = 0, lamps = 0, photons = 0, gather = 0, finish = 0, write = 0,
+           total = 0;
 };
 
 /// Where the photons' light went, all instants together, lm: emitted = absorbed + escaped + at_limit.
@@ -33,6 +35,8 @@ struct BakeReport {
     double predicted_rmse_over_mean = 0.0;     // of the hierarchy against full sampling, from the pilot directions
     double indirect_evaluated_fraction = 0.0;  // texels gathered from photons / covered texels; 0 without photons
     PhotonBalance photons;
+    std::uint64_t lamps = 0;
+    double lamps_refined_fraction = 0.0;  // (texel, lamp) pairs sampled by 16 rays / all that a lamp can reach
     std::uint64_t peak_rss_bytes = 0;
 };
 

@@ -85,6 +85,7 @@ void write_chart(ChartId id, const Chart& chart, const ChartSamples& samples, st
             page.chart[p] = id;
             page.state[p] = buried[i] ? TexelState::buried : TexelState::chart;
             page.sky_view_factor[p] = light.sky_view_factor[i];
+            if (!light.lamps.empty()) page.lamps[p] = light.lamps[i];
             for (std::size_t k = 0; k < layers.size(); ++k) {
                 layers[k]->sky[p] = light.sky[k][i];
                 layers[k]->sun_cosine[p] = light.sun_cosine[k][i];
@@ -121,6 +122,11 @@ void write_chart(ChartId id, const Chart& chart, const ChartSamples& samples, st
                 page.chart[p] = id;
                 if (page.state[p] == TexelState::empty) page.state[p] = TexelState::gutter;
                 page.sky_view_factor[p] = share * view_factor;
+                if (!page.lamps.empty()) {
+                    Rgb lamps(0.0f);
+                    for (const std::size_t source : sources) lamps += page.lamps[source];
+                    page.lamps[p] = share * lamps;
+                }
                 for (LightmapLayer* layer : layers) {
                     Rgb sky(0.0f);
                     float sun = 0.0f;
@@ -187,6 +193,11 @@ void join_seams(const Atlas& atlas, Lightmaps& lightmaps) {
                 }
                 if (weight_sum < 0.1f) continue;
                 page_a.sky_view_factor[p] = view_factor / weight_sum;
+                if (!page_a.lamps.empty()) {
+                    Rgb lamps(0.0f);
+                    for (const auto& [q, weight] : sources) lamps += weight * page_b.lamps[q];
+                    page_a.lamps[p] = lamps / weight_sum;
+                }
                 for (BakedInstant& instant : lightmaps.instants) {
                     const LightmapLayer& from = instant.pages[b.page.index()];
                     Rgb sky(0.0f);
@@ -238,6 +249,7 @@ void light_hidden_edges(const Atlas& atlas, Lightmaps& lightmaps) {
                         page_a.chart[p] = seam.a;
                     }
                     page_a.sky_view_factor[p] = page_b.sky_view_factor[q];
+                    if (!page_a.lamps.empty()) page_a.lamps[p] = page_b.lamps[q];
                     for (BakedInstant& instant : lightmaps.instants) {
                         const LightmapLayer& from = instant.pages[b.page.index()];
                         LightmapLayer& to = instant.pages[a.page.index()];

@@ -20,6 +20,7 @@ struct ChartLight {
     std::vector<std::vector<float>> sun_cosine;  // [instant][texel]
     std::vector<float> sky_view_factor;
     std::vector<std::vector<Rgb>> indirect;  // [instant][texel]; empty without photons
+    std::vector<Rgb> lamps;                  // [texel]; empty without lamps
 };
 
 /// Which covered texels lie inside or behind another solid: they see next to no sky, and most of what they see are back

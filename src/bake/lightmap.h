@@ -25,6 +25,7 @@ struct LightmapPage {
     std::vector<TexelState> state;
     std::vector<ChartId> chart;          // whose texel or gutter it is; undefined where empty
     std::vector<float> sky_view_factor;  // cosine-weighted visible share of the sky, 0…1: E/(πL) under a uniform sky
+    std::vector<Rgb> lamps = {};         // direct light of lamps, lx per channel; empty when there are none
 };
 
 /// Light of one instant on one page. Irradiance in lx per channel, linear Rec. 709.
@@ -45,11 +46,14 @@ struct Lightmaps {
     std::vector<BakedInstant> instants;
 };
 
-/// Sun, sky and reflected light together, lx per channel.
-inline Rgb total_irradiance(const BakedInstant& instant, std::size_t page, std::size_t texel) {
-    const LightmapLayer& layer = instant.pages[page];
-    const Rgb direct = layer.sky[texel] + layer.sun_cosine[texel] * instant.daylight.sun.normal_illuminance;
-    return layer.indirect.empty() ? direct : direct + layer.indirect[texel];
+/// Sun, sky, lamps and reflected light together, lx per channel.
+inline Rgb total_irradiance(const Lightmaps& light, std::size_t instant, std::size_t page, std::size_t texel) {
+    const BakedInstant& baked = light.instants[instant];
+    const LightmapLayer& layer = baked.pages[page];
+    Rgb total = layer.sky[texel] + layer.sun_cosine[texel] * baked.daylight.sun.normal_illuminance;
+    if (!layer.indirect.empty()) total += layer.indirect[texel];
+    if (!light.pages[page].lamps.empty()) total += light.pages[page].lamps[texel];
+    return total;
 }
 
 }  // namespace skybake

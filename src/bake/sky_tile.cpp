@@ -8,6 +8,7 @@
 #include <bit>
 #include <cmath>
 
+#include "bake/shadow_projection.h"
 #include "bake/sky_accumulator.h"
 #include "bake/visibility_grid.h"
 #include "base/check.h"

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "bake/shadow_projection.h"
+#include "bake/neighbour_runs.h"
 #include "bake/sky_sampling.h"
 #include "base/rgb.h"
 #include "base/vec.h"
@@ -63,7 +63,7 @@ struct SkyTileOptions {
 /// What all tiles of charts of one normal share.
 struct SkyDirections {
     DomeSamples dome;
-    DirectionBundles bundles;                // of those that can be projected: for SkySampling::projected, else empty
+    NeighbourRuns bundles;                   // of those that can be projected: for SkySampling::projected, else empty
     std::vector<std::uint32_t> not_bundled;  // the others
 };
 

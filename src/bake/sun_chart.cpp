@@ -4,67 +4,37 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
 
+#include "bake/texel_points.h"
 #include "sky/sun_disc.h"
 
 namespace skybake {
 
 namespace {
 
-constexpr int kPacket = RayScene::kPacketSize;
 constexpr int kRowsPerTask = 32;
-constexpr int kSubdivision = 4;  // points a side within a texel
-constexpr int kSubsamples = kSubdivision * kSubdivision;
 constexpr int kDiscSubsamples = 64;
 
-/// Collects rays of one direction and traces them sixteen at a time.
 template <typename OnFree>
-class Batch {
-  public:
-    Batch(DirectionPacket& packet, OnFree on_free) : packet_(packet), on_free_(on_free) {}
-    void add(const Vec3f& p, std::size_t tag) {
-        x_[count_] = p.x;
-        y_[count_] = p.y;
-        z_[count_] = p.z;
-        tag_[count_++] = tag;
-        if (count_ == kPacket) flush();
-    }
-    void flush() {
-        if (count_ == 0) return;
-        const std::uint32_t blocked = packet_.occluded(x_.data(), y_.data(), z_.data(), count_);
-        for (int i = 0; i < count_; ++i) {
-            if (!(blocked >> i & 1u)) on_free_(tag_[i]);
-        }
-        traced += static_cast<std::uint64_t>(count_);
-        count_ = 0;
-    }
-    std::uint64_t traced = 0;
-
-  private:
-    DirectionPacket& packet_;
-    OnFree on_free_;
-    std::array<float, kPacket> x_, y_, z_;
-    std::array<std::size_t, kPacket> tag_;
-    int count_ = 0;
-};
+RayBatch<DirectionPacket, std::size_t, OnFree> batch_of(DirectionPacket& packet, OnFree on_free) {
+    return {packet, on_free};
+}
 
 class SunOnChart {
   public:
     SunOnChart(const Scene& scene, const Chart& chart, const ChartSamples& samples, const RayScene& rays,
                const SunBeam& sun)
-        : scene_(scene),
-          chart_(chart),
-          samples_(samples),
+        : samples_(samples),
+          points_(scene, chart, samples, rays),
           rays_(rays),
           sun_(sun),
           count_(samples.position.size()),
           cosine_(count_, 0.0f) {
         for (std::size_t i = 0; i < count_; ++i) {
             if (samples.cover[i] == ChartSamples::Cover::none) continue;
-            cosine_[i] = std::max(0.0f, glm::dot(normal_at(i), sun.direction));
+            cosine_[i] = std::max(0.0f, glm::dot(points_.normal(i), sun.direction));
         }
     }
 
@@ -84,10 +54,6 @@ class SunOnChart {
     }
 
   private:
-    Vec3f normal_at(std::size_t i) const {
-        return chart_.min_normal_cosine >= 1.0f ? chart_.normal : shading_normal(scene_, chart_, samples_.triangle[i]);
-    }
-
     template <typename Body>
     void for_rows(const Body& body) const {
         // Isolated: a thread that waits here must not begin another chart, whose time would be counted as the sun's.
@@ -100,11 +66,11 @@ class SunOnChart {
     void trace_coarse(const std::vector<Vec3f>& directions, int row_begin, int row_end,
                       std::vector<std::uint8_t>& free) {
         DirectionPacket packet(rays_);
-        Batch batch(packet, [&](std::size_t i) { ++free[i]; });
+        RayBatch batch = batch_of(packet, [&](std::size_t i) { ++free[i]; });
         for (const Vec3f& direction : directions) {
             packet.set_direction(direction);
             for (std::size_t i = samples_.index(0, row_begin); i < samples_.index(0, row_end); ++i) {
-                if (cosine_[i] > 0.0f) batch.add(samples_.position[i] + rays_.surface_offset() * normal_at(i), i);
+                if (cosine_[i] > 0.0f) batch.add(points_.lifted(i), i);
             }
             batch.flush();
         }
@@ -123,32 +89,13 @@ class SunOnChart {
         return false;
     }
 
-    /// True when the point lies in the texel's triangle or one of those its neighbours lie in.
-    bool is_on_surface(int column, int row, const Vec2f& point) const {
-        std::array<std::uint32_t, 9> seen;
-        std::size_t count = 0;
-        for (int y = std::max(row - 1, 0); y <= std::min(row + 1, samples_.size.y - 1); ++y) {
-            for (int x = std::max(column - 1, 0); x <= std::min(column + 1, samples_.size.x - 1); ++x) {
-                const std::size_t j = samples_.index(x, y);
-                if (samples_.cover[j] == ChartSamples::Cover::none) continue;
-                const std::uint32_t t = samples_.triangle[j];
-                if (std::find(seen.begin(), seen.begin() + static_cast<std::ptrdiff_t>(count), t) !=
-                    seen.begin() + static_cast<std::ptrdiff_t>(count))
-                    continue;
-                seen[count++] = t;
-                if (contains(samples_, chart_, t, point)) return true;
-            }
-        }
-        return false;
-    }
-
     void refine(const std::vector<Vec3f>& directions, const std::vector<std::uint8_t>& free, std::uint8_t all,
                 int row_begin, int row_end, std::vector<float>& share) {
         DirectionPacket packet(rays_);
         std::vector<std::uint32_t> hits(samples_.index(0, row_end) - samples_.index(0, row_begin), 0);
         std::vector<std::uint32_t> tried(hits.size(), 0);
         const std::size_t first = samples_.index(0, row_begin);
-        Batch batch(packet, [&](std::size_t i) { ++hits[i - first]; });
+        RayBatch batch = batch_of(packet, [&](std::size_t i) { ++hits[i - first]; });
         std::vector<std::pair<int, int>> edges;
         for (int row = row_begin; row < row_end; ++row) {
             for (int column = 0; column < samples_.size.x; ++column) {
@@ -163,15 +110,12 @@ class SunOnChart {
             packet.set_direction(directions[s % directions.size()]);
             // Neither the disc's radius (s) nor its angle (the low bits of s) goes along with the place in the texel.
             const int sub = static_cast<int>((s * 11 + s / kSubsamples * 5) % kSubsamples);
-            const Vec2f offset((static_cast<float>(sub % kSubdivision) + 0.5f) / kSubdivision - 0.5f,
-                               (static_cast<float>(sub / kSubdivision) + 0.5f) / kSubdivision - 0.5f);
             for (const auto& [column, row] : edges) {
                 const std::size_t i = samples_.index(column, row);
-                const Vec2f point(static_cast<float>(column) + 0.5f + offset.x,
-                                  static_cast<float>(row) + 0.5f + offset.y);
-                if (samples_.cover[i] != ChartSamples::Cover::whole && !is_on_surface(column, row, point)) continue;
+                const auto point = points_.subsample(column, row, sub);
+                if (!point) continue;
                 ++tried[i - first];
-                batch.add(surface_point(i, point), i);
+                batch.add(*point, i);
             }
             batch.flush();
         }
@@ -184,18 +128,8 @@ class SunOnChart {
         ray_count_ += batch.traced;
     }
 
-    /// The point of the texel's tangent plane above `point`, lifted off the surface.
-    Vec3f surface_point(std::size_t i, const Vec2f& point) const {
-        const Vec3f normal = normal_at(i);
-        const Vec2f own = texel_coordinate(chart_, samples_.position[i]);
-        Vec3f off = (point.x - own.x) * chart_.u + (point.y - own.y) * chart_.v;
-        off -= chart_.normal * (glm::dot(off, normal) / glm::dot(chart_.normal, normal));
-        return samples_.position[i] + off + rays_.surface_offset() * normal;
-    }
-
-    const Scene& scene_;
-    const Chart& chart_;
     const ChartSamples& samples_;
+    TexelPoints points_;
     const RayScene& rays_;
     const SunBeam& sun_;
     std::size_t count_;

@@ -164,6 +164,9 @@ inline constexpr std::array kFindingCodes{
                 "Check longitude (east positive) and time zone in the LOCATION line."},
     FindingCode{"SB715", Severity::warning, "header line of the weather file is missing or wrong",
                 "Write the line as in: DATA PERIODS,1,1,Data,Sunday,1/1,12/31."},
+
+    FindingCode{"SB801", Severity::warning, "light of the lamp file is no lamp",
+                "Give the sun by --at or --sun-direction instead."},
 };
 
 constexpr const FindingCode* find_code(std::string_view code) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "light/surfaces.h"
 #include "sky/colour.h"
 #include "sky/spectral_tables.h"
 
@@ -11,22 +12,57 @@ namespace skybake {
 namespace {
 
 float share_at(const Lamp& lamp, float angle_rad) {
-    if (lamp.type == Lamp::Type::point) return 1.0f;
     if (angle_rad >= lamp.cone_half_angle_rad) return 0.0f;
     if (!(lamp.blend_rad > 0.0f)) return 1.0f;
     const float t = std::clamp((lamp.cone_half_angle_rad - angle_rad) / lamp.blend_rad, 0.0f, 1.0f);
     return t * t * (3.0f - 2.0f * t);
 }
 
+/// The direction of C = 90°: seen along the axis from behind, C turns counter-clockwise.
+Vec3f c_quarter(const Lamp& lamp) {
+    return glm::cross(lamp.c_zero, lamp.axis);
+}
+
+float angle_off_axis(const Lamp& lamp, const Vec3f& direction) {
+    return std::acos(std::clamp(glm::dot(lamp.axis, direction), -1.0f, 1.0f));
+}
+
 }  // namespace
 
 float intensity_share(const Lamp& lamp, const Vec3f& direction) {
     if (lamp.type == Lamp::Type::point) return 1.0f;
-    return share_at(lamp, std::acos(std::clamp(glm::dot(lamp.axis, direction), -1.0f, 1.0f)));
+    if (lamp.type == Lamp::Type::spot) return share_at(lamp, angle_off_axis(lamp, direction));
+    return lamp.profile->share(
+        {glm::dot(direction, lamp.c_zero), glm::dot(direction, c_quarter(lamp)), glm::dot(direction, lamp.axis)});
+}
+
+float largest_intensity_share(const Lamp& lamp, const Vec3f& direction, float half_angle_rad) {
+    if (lamp.type == Lamp::Type::point) return 1.0f;
+    const float angle = angle_off_axis(lamp, direction);
+    const float low = std::max(0.0f, angle - half_angle_rad);
+    if (lamp.type == Lamp::Type::spot) return share_at(lamp, low);
+    return lamp.profile->largest_share(low, std::min(static_cast<float>(kPi), angle + half_angle_rad));
+}
+
+LampSample sample_lamp(const Lamp& lamp, float u, float v) {
+    if (lamp.type == Lamp::Type::profile) {
+        const LightProfile::Sample sample = lamp.profile->sample(u, v);
+        return {glm::normalize(sample.local.x * lamp.c_zero + sample.local.y * c_quarter(lamp) +
+                               sample.local.z * lamp.axis),
+                sample.pdf_solid_angle};
+    }
+    const double lowest =
+        lamp.type == Lamp::Type::point ? -1.0 : std::cos(static_cast<double>(lamp.cone_half_angle_rad));
+    const float z = static_cast<float>(lowest + (1.0 - lowest) * static_cast<double>(u));
+    const float r = std::sqrt(std::max(0.0f, 1.0f - z * z)), turn = static_cast<float>(2.0 * kPi) * v;
+    const TangentFrame frame = tangent_frame(lamp.axis);
+    return {glm::normalize(r * std::cos(turn) * frame.u + r * std::sin(turn) * frame.v + z * lamp.axis),
+            1.0 / (2.0 * kPi * (1.0 - lowest))};
 }
 
 double effective_solid_angle(const Lamp& lamp) {
     if (lamp.type == Lamp::Type::point) return 4.0 * kPi;
+    if (lamp.type == Lamp::Type::profile) return lamp.profile->solid_angle();
     // The full part in closed form, the blend by the midpoint rule.
     const double outer = static_cast<double>(lamp.cone_half_angle_rad);
     const double inner = std::max(0.0, outer - static_cast<double>(lamp.blend_rad));

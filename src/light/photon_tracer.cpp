@@ -165,17 +165,10 @@ class Emitter {
 
   private:
     std::optional<Departure> from_lamp(float a, float b, double count) const {
-        // Evenly over the cone, or the sphere.
-        const double lowest =
-            lamp_->type == Lamp::Type::point ? -1.0 : std::cos(static_cast<double>(lamp_->cone_half_angle_rad));
-        const float z = static_cast<float>(lowest + (1.0 - lowest) * static_cast<double>(a));
-        const float r = std::sqrt(std::max(0.0f, 1.0f - z * z)), turn = static_cast<float>(2.0 * kPi) * b;
-        const TangentFrame frame = tangent_frame(lamp_->axis);
-        const Vec3f direction =
-            glm::normalize(r * std::cos(turn) * frame.u + r * std::sin(turn) * frame.v + z * lamp_->axis);
-        const double solid_angle = 2.0 * kPi * (1.0 - lowest);
-        const Rgb flux =
-            lamp_->intensity * (intensity_share(*lamp_, direction) * static_cast<float>(solid_angle / count));
+        const LampSample sample = sample_lamp(*lamp_, a, b);
+        const Vec3f& direction = sample.direction;
+        const Rgb flux = lamp_->intensity * static_cast<float>(static_cast<double>(intensity_share(*lamp_, direction)) /
+                                                               (sample.pdf_solid_angle * count));
         if (!(luminance(flux) > 0.0f)) return std::nullopt;
         return Departure{lamp_->position, direction, flux, 0};
     }

@@ -1,5 +1,6 @@
 #include "sky/daylight.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "sky/clear_sky.h"
@@ -83,6 +84,11 @@ HorizontalDiffuse horizontal_diffuse(const SkyModel& sky) {
     const double weight = kPi / (kRings * kSectors);
     const double efficacy = std::visit([](const auto& model) { return efficacy_lm_w(model); }, sky);
     return {Rgb(rgb * weight), sum * weight / efficacy};
+}
+
+Rgb land_luminance(const Daylight& daylight) {
+    const Rgb beam = daylight.sun.normal_illuminance * std::max(0.0f, daylight.sun.direction.z);
+    return kLandAlbedo * (horizontal_diffuse(daylight.sky).illuminance + beam) / static_cast<float>(kPi);
 }
 
 }  // namespace skybake

@@ -61,6 +61,14 @@ struct Daylight {
     std::string label;  // the instant as ISO 8601 with its offset, "sun AZ,EL" in degrees, or "no sun"
     SkyModel sky;
     SunBeam sun;
+    double turbidity = 3.0;  // of the air that one looks through (sky/aerial_perspective.h), Preetham's, ≥ 1
 };
+
+/// Albedo of the land about the city, luminous 0.2: that of the clear sky's ground (sky/clear_sky.h), in the hue of
+/// fields, roofs and streets seen from afar (by eye).
+inline const Rgb kLandAlbedo{0.206f, 0.201f, 0.178f};
+
+/// Luminance of open level land under sky and sun, cd m⁻² per channel: Lambert, E ρ / π.
+Rgb land_luminance(const Daylight& daylight);
 
 }  // namespace skybake

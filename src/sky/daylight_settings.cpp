@@ -88,6 +88,7 @@ Daylight daylight_of(const DaylightSettings& settings, const SkySettings& sky, c
     Daylight daylight;
     daylight.label = named.label;
     daylight.sky = sky_model(sky, sun, convergence_rad);
+    daylight.turbidity = air_turbidity(sky, sun);
     daylight.sun.direction = Vec3f(sun.direction);
     daylight.sun.shape = settings.sun;
     daylight.sun.angular_radius_rad = static_cast<float>(kSunAngularRadiusRad / sun.distance_au);
@@ -205,6 +206,7 @@ std::vector<Daylight> make_daylights(const DaylightSettings& settings, const std
         Daylight daylight;
         daylight.label = "no sun";
         daylight.sky = sky_model(settings.sky, {}, convergence_rad);
+        daylight.turbidity = air_turbidity(settings.sky, {});
         daylight.sun.shape = SunShape::none;
         daylights.push_back(daylight);
         return daylights;

@@ -75,16 +75,27 @@ CieAir air_of_type(Cie1994Type type) {
     return air_of_type(1);
 }
 
+/// The turbidity that the user states, if it is one of Preetham's kind: gensky's is not.
+std::optional<double> stated_turbidity(const CieSettings& settings) {
+    return settings.turbidity;
+}
+std::optional<double> stated_turbidity(const Cie1994Settings& settings) {
+    return settings.level == Cie1994Level::gensky ? std::nullopt : settings.turbidity;
+}
+
 /// The air as the user has it.
 template <typename Cie>
 CieAir air_of(const Cie& settings) {
     CieAir air = air_of_type(settings.type);
-    const bool is_told = [&] {
-        if constexpr (std::is_same_v<Cie, Cie1994Settings>) return settings.level != Cie1994Level::gensky;
-        return true;
-    }();
-    if (settings.turbidity && air.turbidity && is_told) air.turbidity = *settings.turbidity;
+    if (air.turbidity) air.turbidity = stated_turbidity(settings).value_or(*air.turbidity);
     return air;
+}
+
+/// Of the clear air: the blue between clouds is that of clear air, however little the clouds leave of the sun.
+template <typename Cie>
+double clear_turbidity(const Cie& settings) {
+    const CieAir air = air_of_type(settings.type);
+    return stated_turbidity(settings).value_or(air.clouds == Clouds::none ? *air.turbidity : kDefaultTurbidity);
 }
 
 /// Based on: Krochmann & Seidl, "Quantitative data on daylight for illuminating engineering", Lighting Research &
@@ -116,9 +127,7 @@ Sky with_level(Sky sky, const Settings& settings, const CieAir& air, const SeenS
             air.clouds == Clouds::overcast ? overcast_illuminance(sun.elevation_rad) : broken_illuminance(sun);
     }
     if (!settings.dhi_w_m2) illuminance_lx = std::max(illuminance_lx, dusk_illuminance(sun));
-    // The blue between clouds is that of clear air, however little the clouds leave of the sun.
-    const double turbidity = settings.turbidity || air.clouds == Clouds::none ? *air.turbidity : kDefaultTurbidity;
-    sky.colour = sky_colour(turbidity, sun.direction, air.clear_share);
+    sky.colour = sky_colour(clear_turbidity(settings), sun.direction, air.clear_share);
     return settings.zenith_cd_m2 ? with_zenith(sky, *settings.zenith_cd_m2) : scaled_to(sky, illuminance_lx);
 }
 
@@ -210,6 +219,23 @@ Beam beam_of(const ImageSettings& settings, const SeenSun& sun) {
     return settings.sun == SunInImage::cut ? clear_beam(settings.turbidity, sun) : Beam{};
 }
 
+/// Models whose turbidity is a number of their own.
+template <typename Settings>
+double air_turbidity_of(const Settings& settings, const SeenSun&) {
+    return settings.turbidity;
+}
+double air_turbidity_of(const PerezSettings& settings, const SeenSun& sun) {
+    return perez_state({settings.dni_w_m2, settings.dhi_w_m2, sun.distance_au, settings.precipitable_water_cm},
+                       sun.zenith_rad())
+        .turbidity;
+}
+double air_turbidity_of(const CieSettings& settings, const SeenSun&) {
+    return clear_turbidity(settings);
+}
+double air_turbidity_of(const Cie1994Settings& settings, const SeenSun&) {
+    return clear_turbidity(settings);
+}
+
 }  // namespace
 
 SkyModel sky_model(const SkySettings& settings, const SeenSun& sun, double convergence_rad) {
@@ -218,6 +244,10 @@ SkyModel sky_model(const SkySettings& settings, const SeenSun& sun, double conve
 
 Beam sun_beam(const SkySettings& settings, const SeenSun& sun) {
     return std::visit([&](const auto& s) { return beam_of(s, sun); }, settings);
+}
+
+double air_turbidity(const SkySettings& settings, const SeenSun& sun) {
+    return std::visit([&](const auto& s) { return air_turbidity_of(s, sun); }, settings);
 }
 
 std::shared_ptr<const SkyImage> prepared_image(const ImageSettings& settings, SkyImage image, FindingLog& findings) {

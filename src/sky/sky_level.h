@@ -33,6 +33,10 @@ struct Beam {
 };
 Beam sun_beam(const SkySettings& settings, const SeenSun& sun);
 
+/// Turbidity of the air that one looks through: the sky's own; Perez's that of the beam (perez_state); a CIE type's
+/// that of its clear sky, or kDefaultTurbidity below clouds, or what the user says; else that of the beam.
+double air_turbidity(const SkySettings& settings, const SeenSun& sun);
+
 /// The picture of a file, cd m⁻², as `settings` ask for it: the sun cut out, then brought to the diffuse irradiance.
 /// Finding SB606 when there is no sun to cut.
 std::shared_ptr<const SkyImage> prepared_image(const ImageSettings& settings, SkyImage image, FindingLog& findings);

@@ -125,44 +125,64 @@ const char* RayScene::isa() const {
     return "sse";
 }
 
-struct DirectionPacket::Rays {
-    RTCRay16 packet;
+struct RayPacket {
+    RTCRay16 rays;
     RTCIntersectContext context;
+
+    RayPacket() : context(coherent_context()) {
+        std::memset(static_cast<void*>(&rays), 0, sizeof(rays));
+        std::fill_n(rays.mask, RayScene::kPacketSize, ~0u);
+    }
+
+    void set_origins(const float* x, const float* y, const float* z, int count) {
+        SKYBAKE_DCHECK_LT(count, RayScene::kPacketSize + 1);
+        const std::size_t bytes = static_cast<std::size_t>(count) * sizeof(float);
+        std::memcpy(rays.org_x, x, bytes);
+        std::memcpy(rays.org_y, y, bytes);
+        std::memcpy(rays.org_z, z, bytes);
+    }
+
+    /// Up to `reach` times each ray's direction.
+    std::uint32_t occluded(RTCScene scene, float reach, int count) {
+        alignas(64) static constexpr int kAllThenNone[2 * RayScene::kPacketSize] = {
+            -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1,
+            0,  0,  0,  0,  0,  0,  0,  0,  0,  0,  0,  0,  0,  0,  0,  0};
+        std::fill_n(rays.tfar, RayScene::kPacketSize, reach);
+        alignas(64) int valid[RayScene::kPacketSize];
+        std::memcpy(valid, kAllThenNone + RayScene::kPacketSize - count, sizeof(valid));
+        rtcOccluded16(valid, scene, &context, &rays);
+        std::uint32_t blocked = 0;
+        for (int i = 0; i < count; ++i) blocked |= static_cast<std::uint32_t>(rays.tfar[i] < 0.0f) << i;
+        return blocked;
+    }
 };
 
-DirectionPacket::DirectionPacket(const RayScene& scene) : scene_(scene), rays_(new Rays) {
-    std::memset(static_cast<void*>(&rays_->packet), 0, sizeof(rays_->packet));
-    std::fill_n(rays_->packet.mask, RayScene::kPacketSize, ~0u);
-    rays_->context = coherent_context();
-}
-
-DirectionPacket::~DirectionPacket() {
-    delete rays_;
-}
+DirectionPacket::DirectionPacket(const RayScene& scene) : scene_(scene), rays_(std::make_unique<RayPacket>()) {}
+DirectionPacket::~DirectionPacket() = default;
 
 void DirectionPacket::set_direction(const Vec3f& direction, float distance) {
     distance_ = distance;
-    std::fill_n(rays_->packet.dir_x, RayScene::kPacketSize, direction.x);
-    std::fill_n(rays_->packet.dir_y, RayScene::kPacketSize, direction.y);
-    std::fill_n(rays_->packet.dir_z, RayScene::kPacketSize, direction.z);
+    std::fill_n(rays_->rays.dir_x, RayScene::kPacketSize, direction.x);
+    std::fill_n(rays_->rays.dir_y, RayScene::kPacketSize, direction.y);
+    std::fill_n(rays_->rays.dir_z, RayScene::kPacketSize, direction.z);
 }
 
 std::uint32_t DirectionPacket::occluded(const float* x, const float* y, const float* z, int count) {
-    alignas(64) static constexpr int kAllThenNone[2 * RayScene::kPacketSize] = {
-        -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
-    SKYBAKE_DCHECK_LT(count, RayScene::kPacketSize + 1);
-    RTCRay16& packet = rays_->packet;
-    const std::size_t bytes = static_cast<std::size_t>(count) * sizeof(float);
-    std::memcpy(packet.org_x, x, bytes);
-    std::memcpy(packet.org_y, y, bytes);
-    std::memcpy(packet.org_z, z, bytes);
-    std::fill_n(packet.tfar, RayScene::kPacketSize, distance_);
-    alignas(64) int valid[RayScene::kPacketSize];
-    std::memcpy(valid, kAllThenNone + RayScene::kPacketSize - count, sizeof(valid));
-    rtcOccluded16(valid, scene_.embree_->scene, &rays_->context, &packet);
-    std::uint32_t blocked = 0;
-    for (int i = 0; i < count; ++i) blocked |= static_cast<std::uint32_t>(packet.tfar[i] < 0.0f) << i;
-    return blocked;
+    rays_->set_origins(x, y, z, count);
+    return rays_->occluded(scene_.embree_->scene, distance_, count);
+}
+
+TargetPacket::TargetPacket(const RayScene& scene) : scene_(scene), rays_(std::make_unique<RayPacket>()) {}
+TargetPacket::~TargetPacket() = default;
+
+std::uint32_t TargetPacket::occluded(const float* x, const float* y, const float* z, int count) {
+    rays_->set_origins(x, y, z, count);
+    for (int i = 0; i < count; ++i) {
+        rays_->rays.dir_x[i] = target_.x - x[i];
+        rays_->rays.dir_y[i] = target_.y - y[i];
+        rays_->rays.dir_z[i] = target_.z - z[i];
+    }
+    return rays_->occluded(scene_.embree_->scene, 1.0f, count);
 }
 
 }  // namespace skybake

@@ -45,9 +45,12 @@ class RayScene {
 
   private:
     friend class DirectionPacket;
+    friend class TargetPacket;
     struct Embree;
     std::unique_ptr<Embree> embree_;
 };
+
+struct RayPacket;
 
 /// Packets of 16 rays that share one direction: neighbouring texels looking at the same point of the sky. This is what
 /// the tracer is fastest at (docs/architecture.md, "Rays"). One object a thread.
@@ -55,8 +58,6 @@ class DirectionPacket {
   public:
     explicit DirectionPacket(const RayScene& scene);
     ~DirectionPacket();
-    DirectionPacket(const DirectionPacket&) = delete;
-    DirectionPacket& operator=(const DirectionPacket&) = delete;
 
     /// The unit direction of all rays that follow, and how far they look, metres.
     void set_direction(const Vec3f& direction, float distance = std::numeric_limits<float>::infinity());
@@ -66,10 +67,27 @@ class DirectionPacket {
     std::uint32_t occluded(const float* x, const float* y, const float* z, int count);
 
   private:
-    struct Rays;
     const RayScene& scene_;
-    Rays* rays_;
+    std::unique_ptr<RayPacket> rays_;
     float distance_ = 0.0f;
+};
+
+/// Packets of 16 rays that share their end: neighbouring texels looking at one lamp. One object a thread.
+class TargetPacket {
+  public:
+    explicit TargetPacket(const RayScene& scene);
+    ~TargetPacket();
+
+    void set_target(const Vec3f& target) { target_ = target; }
+
+    /// Bit i of the result is set when something stands between (x[i], y[i], z[i]) and the target; only the first
+    /// `count` ≤ 16 are traced and read.
+    std::uint32_t occluded(const float* x, const float* y, const float* z, int count);
+
+  private:
+    const RayScene& scene_;
+    std::unique_ptr<RayPacket> rays_;
+    Vec3f target_{0.0f};
 };
 
 }  // namespace skybake

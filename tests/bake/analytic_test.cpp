@@ -135,7 +135,7 @@ Rgb at(const Baked& baked, const Vec3f& point, const Vec3f& normal) {
         const LightmapPage& page = baked.lightmaps.pages[chart.page.index()];
         const std::size_t texel = static_cast<std::size_t>((chart.position.y + static_cast<int>(t.y)) * page.width +
                                                            chart.position.x + static_cast<int>(t.x));
-        return total_irradiance(baked.lightmaps.instants[0], chart.page.index(), texel);
+        return total_irradiance(baked.lightmaps, 0, chart.page.index(), texel);
     }
     ADD_FAILURE() << "no chart at the point";
     return Rgb(0);

@@ -99,7 +99,7 @@ TEST(IndirectHierarchy, KeepsItsToleranceAndSavesGathers) {
             const double a = static_cast<double>(luminance(full.instants[0].pages[p].indirect[i])),
                          b = static_cast<double>(luminance(fast.instants[0].pages[p].indirect[i]));
             error2 += (a - b) * (a - b);
-            total += static_cast<double>(luminance(total_irradiance(full.instants[0], p, i)));
+            total += static_cast<double>(luminance(total_irradiance(full, 0, p, i)));
             indirect += a;
             ++count;
         }

@@ -368,5 +368,64 @@ TEST(Town, WindowsStandInWholeBays) {
     EXPECT_GT(walls, 300u);
 }
 
+/// Crossings of the city's faces by the vertical above a point, and how far in plan the nearest wall of its height is.
+struct Surroundings {
+    int faces_above = 0;
+    double wall_m = 1e9;
+};
+Surroundings around(const CityModel& city, const Vec3d& p) {
+    Surroundings found;
+    for (const CityObject& object : city.objects) {
+        if (!is_building(object.type)) continue;
+        const Geometry& g = object.geometry;
+        for (const Surface& surface : g.surfaces) {
+            bool is_inside = false;
+            double lo = 1e9, hi = -1e9, nearest = 1e9;
+            Vec3d normal(0.0);
+            for (std::uint32_t r = surface.ring_begin; r < surface.ring_end; ++r) {
+                for (std::uint32_t c = g.ring_first[r]; c < g.ring_first[r + 1]; ++c) {
+                    const std::uint32_t next = c + 1 < g.ring_first[r + 1] ? c + 1 : g.ring_first[r];
+                    const Vec3d a = g.vertices[g.corners[c]] - p, b = g.vertices[g.corners[next]] - p;
+                    if (r == surface.ring_begin) normal += glm::cross(a, b);
+                    lo = std::min(lo, a.z);
+                    hi = std::max(hi, a.z);
+                    if ((a.y > 0) != (b.y > 0) && a.x + (b.x - a.x) * a.y / (a.y - b.y) > 0) is_inside = !is_inside;
+                    const Vec2d along(b - a);
+                    const double l2 = glm::dot(along, along);
+                    const double t = l2 > 0 ? std::clamp(-glm::dot(Vec2d(a), along) / l2, 0.0, 1.0) : 0.0;
+                    nearest = std::min(nearest, glm::length(Vec2d(a) + t * along));
+                }
+            }
+            const Vec3d corner = g.vertices[g.corners[g.ring_first[surface.ring_begin]]] - p;
+            if (is_inside && std::abs(normal.z) > 1e-6 && glm::dot(corner, normal) / normal.z > 0) ++found.faces_above;
+            if (lo < 0.5 && hi > -0.5) found.wall_m = std::min(found.wall_m, nearest);
+        }
+    }
+    return found;
+}
+
+/// Lamps hang free of all walls, in no house and under no roof, 4 to 7 m above the ground
+/// (the relief is triangulated, their height is not), and light the town's streets: one each 25 m.
+TEST(TownLamps, HangFreeAboutTwentyFiveMetresApart) {
+    const Town& town = small_town();
+    ASSERT_GT(town.lamps.size(), 50u);
+    std::set<std::string> ids;
+    for (const StreetLamp& lamp : town.lamps) {
+        EXPECT_TRUE(ids.insert(lamp.id).second) << lamp.id;
+        const Surroundings about = around(town.city, lamp.position);
+        EXPECT_EQ(about.faces_above % 2, 0) << lamp.id << " is inside a house";
+        EXPECT_GT(about.wall_m, 1.2) << lamp.id;  // half of the narrowest lane less its eaves
+        EXPECT_LE(lamp.color_temperature_k, 3000.0);
+        double nearest = 1e9;
+        for (const StreetLamp& other : town.lamps) {
+            if (&other != &lamp) nearest = std::min(nearest, glm::length(other.position - lamp.position));
+        }
+        EXPECT_GT(nearest, 3.0) << lamp.id;
+        EXPECT_LT(nearest, 40.0) << lamp.id;
+    }
+    const Town again = town_of(250, 0);
+    for (std::size_t i = 0; i < again.lamps.size(); ++i) EXPECT_EQ(again.lamps[i].position, town.lamps[i].position);
+}
+
 }  // namespace
 }  // namespace skybake

@@ -39,6 +39,8 @@ TEST(TownVerb, WritesTheTownAndItsPicturesAndTellsFigures) {
     EXPECT_EQ(figures.at("buildings"), 31);  // and the planned tower
     EXPECT_EQ(figures.at("bytes"), std::filesystem::file_size(file));
     EXPECT_TRUE(std::filesystem::exists(folder / "textures" / "facade_ochre.png"));
+    EXPECT_TRUE(std::filesystem::exists(folder / "t.lamps.json"));
+    EXPECT_GT(figures.at("lamp_count"), 5);
     std::filesystem::remove_all(folder);
 }
 

@@ -15,6 +15,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "io/exr/exr.h"
 #include "io/file/replace_file.h"
 #include "io/image/image.h"
 #include "io/manifest/read_bake.h"
@@ -67,6 +68,8 @@ class BakeFolder : public ::testing::Test {
             InstantDescription instant;
             instant.sky_model = "uniform:luminance=3000";
             instant.sky_panorama.assign(std::size_t{kPanoramaWidth} * kPanoramaHeight, Rgb(3000.0f, 2000.0f, 1000.0f));
+            instant.land_luminance = Rgb(4000.0f);
+            if (i == 0) instant.air = air_under(bake.light.instants[i].daylight, 4, 6);
             description.instants.push_back(instant);
         }
         description.instants[0].utc = "2026-06-21T10:00:00Z";
@@ -102,7 +105,7 @@ TEST_F(BakeFolder, LightComesBackBitForBit) {
             const StoredLight light = read_light(stored, i, p);
             EXPECT_EQ(light.sky, bake.light.instants[i].pages[p].sky);
             for (std::size_t t = 0; t < light.total.size(); ++t) {
-                ASSERT_EQ(light.total[t], total_irradiance(bake.light.instants[i], p, t));
+                ASSERT_EQ(light.total[t], total_irradiance(bake.light, i, p, t));
                 ASSERT_EQ(light.sun[t], bake.light.instants[i].pages[p].sun_cosine[t] *
                                             bake.light.instants[i].daylight.sun.normal_illuminance);
             }
@@ -142,6 +145,47 @@ TEST_F(BakeFolder, WebPicturesHoldTheLightWithinHalfACode) {
                 ASSERT_NEAR(static_cast<float>(sun.pixels[t]) / 255.0f * sun_scale,
                             bake.light.instants[i].pages[p].sun_cosine[t], 0.501f / 255.0f * sun_scale);
             }
+        }
+    }
+}
+
+// Lamps: once a page, in the total of every instant, and in the browser's picture within half a code.
+TEST_F(BakeFolder, LampsStandWithTheirPages) {
+    double sum = 0.0, squares = 0.0, total = 0.0, count = 0.0;
+    for (std::size_t p = 0; p < 2; ++p) {
+        LightmapPage& page = bake.light.pages[p];
+        page.lamps.assign(page.state.size(), Rgb(0.0f));
+        for (std::size_t t = 0; t < page.state.size(); ++t) {
+            if (page.state[t] != TexelState::empty) page.lamps[t] = static_cast<float>(t % 7) * Rgb(3.0f, 2.0f, 0.5f);
+            if (page.state[t] != TexelState::chart) continue;
+            const double lx = static_cast<double>(luminance(page.lamps[t]));
+            sum += lx;
+            squares += lx * lx;
+            total += static_cast<double>(luminance(total_irradiance(bake.light, 0, p, t)));
+            count += 1.0;
+        }
+    }
+    EXPECT_NEAR(exposure_hint(bake.light, 0), 0.5 * kPi * 1000.0 / (total / count + squares / sum), 1e-6);
+    write("a");
+    const std::vector<std::uint8_t> bytes = read_file(folder / "a/light/lamp_scales.bin");
+    std::array<float, 4> scales{};
+    ASSERT_EQ(bytes.size(), sizeof(scales));
+    std::memcpy(scales.data(), bytes.data(), bytes.size());
+    const StoredBake stored = open_bake(folder / "a");
+    for (std::size_t p = 0; p < 2; ++p) {
+        const LightmapPage& page = bake.light.pages[p];
+        const Image8 lamps = read_image(folder / ("a/light/p" + std::to_string(p) + "_lamps.png"));
+        const StoredLight light = read_light(stored, 1, p);
+        std::vector<float> red(page.state.size());
+        ExrReader reader(folder / ("a/light/p" + std::to_string(p) + "_base.exr"));
+        reader.read(std::vector<ExrReader::Target>{{{"lamps.R", ExrType::float32}, red.data(), 1}});
+        for (std::size_t t = 0; t < page.state.size(); ++t) {
+            ASSERT_EQ(red[t], page.lamps[t].x);
+            if (page.state[t] == TexelState::empty) continue;
+            ASSERT_EQ(light.total[t], total_irradiance(bake.light, 1, p, t));
+            const float scale = scales[page.chart[t].index()];
+            ASSERT_NEAR(linear_from_srgb(static_cast<float>(lamps.pixels[3 * t]) / 255.0f) * scale,
+                        1e-3f * page.lamps[t].x, 0.0046f * scale);
         }
     }
 }
@@ -196,7 +240,7 @@ TEST_F(BakeFolder, ExposureHintBringsMeanWhiteToOneHalf) {
     for (std::size_t p = 0; p < 2; ++p) {
         for (std::size_t t = 0; t < bake.light.pages[p].state.size(); ++t) {
             if (bake.light.pages[p].state[t] != TexelState::chart) continue;
-            sum += static_cast<double>(luminance(total_irradiance(bake.light.instants[0], p, t))) / kPi / 1000.0;
+            sum += static_cast<double>(luminance(total_irradiance(bake.light, 0, p, t))) / kPi / 1000.0;
             count += 1.0;
         }
     }
@@ -325,7 +369,8 @@ TEST_F(BakeFolder, SameBytesForAnyNumberOfThreadsAndAnyDuration) {
         EXPECT_EQ(read_file(entry.path()), read_file(folder / "one" / relative.string())) << relative;
         ++count;
     }
-    EXPECT_EQ(count, 22u);  // 2 × (scales, panorama), 2 × (base, svf), 4 × (exr, sky, sun), city.glb, manifest.json
+    EXPECT_EQ(count,
+              23u);  // 2 × (scales, panorama), air, 2 × (base, svf), 4 × (exr, sky, sun), city.glb, manifest.json
 }
 
 // A stopped bake leaves no manifest, neither its own nor the old one's, and what it left is gone after the next.

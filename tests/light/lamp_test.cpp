@@ -3,9 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
 
+#include "base/hash_rng.h"
+#include "light/lamp_tree.h"
 #include "light/point_light.h"
+#include "light/surfaces.h"
 #include "vessels.h"
 
 namespace skybake {
@@ -49,6 +54,113 @@ TEST(LampLight, SpotHasItsConeAndItsFlux) {
         }
     }
     EXPECT_NEAR(flux / effective_solid_angle(spot), 1.0, 1e-3);
+}
+
+/// A Lambertian luminaire, I = I₀ cos γ, measured each 2.5°: the flux is π I₀.
+LightProfile lambertian(double peak_cd) {
+    std::vector<double> gamma, candela;
+    for (int i = 0; i <= 36; ++i) {
+        gamma.push_back(radians_from_degrees(2.5 * i));
+        candela.push_back(i == 36 ? 0.0 : peak_cd * std::cos(gamma.back()));
+    }
+    return {{0.0}, gamma, candela};
+}
+
+TEST(LightProfiles, LambertianHasItsFlux) {
+    const LightProfile profile = lambertian(200.0);
+    EXPECT_EQ(profile.peak_cd(), 200.0);
+    // A chord lies below the cosine by h²/8 of its curvature at most: 2.4e-4, two thirds of it on the mean.
+    EXPECT_NEAR(profile.solid_angle() / kPi, 1.0, 3e-4);
+    EXPECT_NEAR(profile.share(glm::normalize(Vec3f(1, 0, 1))), std::sqrt(0.5f), 3e-4f);
+    EXPECT_EQ(profile.share({0, 0, -1}), 0.0f);
+}
+
+/// C = 90° lies counter-clockwise of C = 0 for who looks down on the lamp; between planes the share is linear in C.
+TEST(LightProfiles, TurnWithTheirLamp) {
+    const auto profile = std::make_shared<const LightProfile>(std::vector<double>{0.0, kPi / 2, kPi, 3 * kPi / 2},
+                                                              std::vector<double>{0.0, kPi},
+                                                              std::vector<double>{100, 100, 50, 50, 20, 20, 10, 10});
+    Lamp lamp{"p", Lamp::Type::profile, {0, 0, 5}, Rgb(100.0f)};
+    lamp.profile = profile;
+    lamp.c_zero = {0, 1, 0};  // to the north
+    EXPECT_NEAR(intensity_share(lamp, glm::normalize(Vec3f(0, 1, -1))), 1.0f, 1e-5f);
+    EXPECT_NEAR(intensity_share(lamp, glm::normalize(Vec3f(-1, 0, -1))), 0.5f, 1e-5f);  // west
+    EXPECT_NEAR(intensity_share(lamp, glm::normalize(Vec3f(0, -1, -1))), 0.2f, 1e-5f);
+    EXPECT_NEAR(intensity_share(lamp, glm::normalize(Vec3f(1, 0, -1))), 0.1f, 1e-5f);
+    EXPECT_NEAR(intensity_share(lamp, glm::normalize(Vec3f(-1, 1, -1))), 0.75f, 1e-5f);
+    EXPECT_NEAR(intensity_share(lamp, glm::normalize(Vec3f(1, 1, -1))), 0.55f, 1e-5f);  // from the last to the first
+}
+
+/// The mean of share over density is the solid angle, for each kind of lamp; and directions lie where it shines.
+TEST(LampSamples, HaveTheirDensity) {
+    Lamp spot{"s", Lamp::Type::spot, {0, 0, 4}, Rgb(1.0f), glm::normalize(Vec3f(1, 2, -3)), 0.9f, 0.4f};
+    Lamp profile = spot;
+    profile.type = Lamp::Type::profile;
+    profile.c_zero = glm::normalize(glm::cross(profile.axis, Vec3f(0, 0, 1)));
+    profile.profile = std::make_shared<const LightProfile>(lambertian(3.0));
+    Lamp point = spot;
+    point.type = Lamp::Type::point;
+    for (const Lamp& lamp : {point, spot, profile}) {
+        double sum = 0.0, worst = 0.0;
+        constexpr int kSide = 512;
+        for (int i = 0; i < kSide * kSide; ++i) {
+            const LampSample sample = sample_lamp(lamp, (static_cast<float>(i % kSide) + 0.5f) / kSide,
+                                                  (static_cast<float>(i / kSide) + 0.5f) / kSide);
+            const double ratio = static_cast<double>(intensity_share(lamp, sample.direction)) / sample.pdf_solid_angle;
+            sum += ratio;
+            worst = std::max(worst, ratio);
+        }
+        EXPECT_NEAR(sum / (kSide * kSide) / effective_solid_angle(lamp), 1.0, 1e-3);
+        // Photons of nearly one flux: at worst twice the mean, where in the last cell before γ = 90° the share falls
+        // from twice the cell's mean to 0. Evenly over the sphere it would be four times.
+        if (lamp.type == Lamp::Type::profile) {
+            EXPECT_LT(worst / effective_solid_angle(lamp), 2.0);
+        }
+    }
+}
+
+/// What is left out is below the cutoff at every point of the patch, whatever the lamps; a cutoff of 0 leaves out none
+/// that shines there.
+TEST(LampTrees, KeepTheirBound) {
+    RandomSequence random(7, 0, 0);
+    const auto in = [&](float lo, float hi) { return lo + (hi - lo) * random.next(); };
+    std::vector<Lamp> lamps;
+    for (int i = 0; i < 500; ++i) {
+        Lamp lamp = point_lamp({in(-300, 300), in(-300, 300), in(0, 12)}, in(10, 1000));
+        lamp.axis = glm::normalize(Vec3f(in(-1, 1), in(-1, 1), -1));
+        lamp.c_zero = glm::normalize(glm::cross(lamp.axis, Vec3f(1, 0, 0)));
+        lamp.cone_half_angle_rad = in(0.2f, 2.0f);
+        lamp.blend_rad = 0.1f;
+        lamp.type = static_cast<Lamp::Type>(i % 3);
+        lamp.profile = std::make_shared<const LightProfile>(lambertian(1.0));
+        lamps.push_back(lamp);
+    }
+    const LampTree tree(lamps);
+    for (const Vec3f& normal : {Vec3f(0, 0, 1), Vec3f(0, -1, 0), glm::normalize(Vec3f(1, 1, 1))}) {
+        const TangentFrame frame = tangent_frame(normal);
+        std::vector<Vec3f> points;
+        ReceiverPatch patch{{}, true, normal, 1e9f};
+        for (int i = 0; i < 64; ++i) {
+            points.push_back(Vec3f(20, -30, 1) + in(-8, 8) * frame.u + in(-8, 8) * frame.v);
+            patch.box.extend(points.back());
+            patch.plane_offset = std::min(patch.plane_offset, glm::dot(normal, points.back()));
+        }
+        for (const double cutoff : {0.0, 0.05, 1.0}) {
+            const std::vector<std::uint32_t> kept = tree.relevant(patch, cutoff);
+            EXPECT_TRUE(std::is_sorted(kept.begin(), kept.end()));
+            if (cutoff > 0.0) {
+                EXPECT_LT(kept.size(), lamps.size());
+            }
+            for (const Vec3f& p : points) {
+                double dropped = 0.0;
+                for (std::uint32_t l = 0; l < lamps.size(); ++l) {
+                    if (!std::binary_search(kept.begin(), kept.end(), l))
+                        dropped += static_cast<double>(luminance(unobstructed_irradiance(lamps[l], p, normal)));
+                }
+                EXPECT_LE(dropped, cutoff * (1.0 + 1e-4)) << kept.size();
+            }
+        }
+    }
 }
 
 /// CIE 15: illuminant A is a black body of 2856 K with x = 0.4476, y = 0.4074.

@@ -81,6 +81,33 @@ TEST_F(BakeVerb, WritesTheSamePhotonsForAnyNumberOfThreads) {
     }
 }
 
+/// A night with the town's lamps and their reflections: light in its own pages, and the same bytes.
+TEST_F(BakeVerb, WritesTheSameLampsForAnyNumberOfThreads) {
+    const auto night = [&](const std::string& folder, const std::string& threads) {
+        return run({"bake", place_.str("a/town.city.json"), "-o", place_.str(folder), "--texel", "2", "--at",
+                    "2026-06-21T23:30+02:00", "--sky", "none", "--lamps", place_.str("a/town.lamps.json"), "--indirect",
+                    "photons", "--photons", "60000", "--threads", threads, "--quiet"});
+    };
+    ASSERT_EQ(night("one", "1"), 0);
+    const auto one = bytes_of("one");
+    ASSERT_TRUE(one.contains("light/p0_lamps.png"));
+    const auto manifest = nlohmann::json::parse(one.at("manifest.json"));
+    EXPECT_EQ(manifest.at("lamp_scales").at("uri"), "light/lamp_scales.bin");
+    EXPECT_EQ(manifest.at("pages")[0].at("lamps"), "light/p0_lamps.png");
+    EXPECT_GT(manifest.at("report").at("lamps"), 5);
+    EXPECT_GT(manifest.at("report").at("rays").at("lamp"), 1000);
+    EXPECT_GT(manifest.at("report").at("photon_lumen").at("emitted"), 5000.0);
+    EXPECT_EQ(manifest.at("inputs").size(), 2u);
+    // The night is lit: the mean is more than a thousandth of a lux, and far from a day's.
+    const double hint = manifest.at("instants")[0].at("exposure_hint");
+    EXPECT_GT(hint, 0.5 / (100.0 / 1000.0 / 3.14159));
+    EXPECT_LT(hint, 0.5 / (0.1 / 1000.0 / 3.14159));
+    for (const char* threads : {"2", "7"}) {
+        ASSERT_EQ(night(threads, threads), 0);
+        expect_equal(one, bytes_of(threads));
+    }
+}
+
 TEST_F(BakeVerb, WritesTheSameBytesForShuffledObjects) {
     using Json = nlohmann::ordered_json;
     Json city = Json::parse(text_of(place_ / "a/town.city.json"));

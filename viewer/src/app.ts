@@ -1,5 +1,6 @@
-import { Bake } from './core/bake';
+import { Bake, type BakedInstant } from './core/bake';
 import { clampEv } from './core/exposure';
+import { lightParts, type LightPart } from './core/light_parts';
 import { LoadError } from './core/load_error';
 import { pictures, type Mode, type Picture } from './core/pictures';
 import { text } from './core/text';
@@ -17,6 +18,13 @@ const linkIntervalMs = 300;
 const noticeMs = 5000;
 
 type NamedView = { name: string; position: Vec3; target: Vec3 } | 'birds-eye' | 'on-foot';
+
+/** Koschmieder's sight: where a contrast of one fiftieth is left. */
+function airNote({ air }: BakedInstant): string | null {
+  if (!air) return null;
+  const green = (air.molecules_per_m[1] ?? 0) + (air.haze_per_m[1] ?? 0);
+  return text.airNote(air.turbidity, Math.log(50) / green / 1000);
+}
 
 /** Joins the bake, the drawing and the page. */
 export class App {
@@ -74,6 +82,8 @@ export class App {
         mode: (mode) => this.setMode(mode),
         view: (index) => this.showView(index),
         ev: (ev) => this.setEv(ev),
+        air: (isSeen) => this.setAir(isSeen),
+        part: (part, isOn) => this.switchPart(part, isOn),
       },
     );
     document.body.append(this.panel.opener, this.panel.root, this.makePad());
@@ -97,6 +107,7 @@ export class App {
     this.progress.end();
     this.said.textContent = text.nowShowing(label);
     this.showSun(index);
+    this.panel?.setAirNote(airNote(bake.instant(index)));
     this.refresh();
   }
 
@@ -107,6 +118,16 @@ export class App {
 
   setEv(ev: number): void {
     this.viewer.ev = clampEv(ev);
+    this.refresh();
+  }
+
+  setAir(isSeen: boolean): void {
+    this.viewer.air = isSeen;
+    this.refresh();
+  }
+
+  switchPart(part: LightPart, isOn: boolean): void {
+    this.viewer.off = lightParts.filter((other) => (other === part ? !isOn : this.viewer.off.includes(other)));
     this.refresh();
   }
 
@@ -158,6 +179,8 @@ export class App {
   private restore(state: Partial<ViewState>): void {
     if (state.picture) this.viewer.picture = state.picture;
     if (state.ev !== undefined) this.viewer.ev = clampEv(state.ev);
+    if (state.air !== undefined) this.viewer.air = state.air;
+    this.viewer.off = state.off ?? [];
     if (state.position && state.target) {
       const isWalking = state.mode === 'walk' && this.viewer.walkFrom({ position: state.position, target: state.target });
       if (!isWalking) this.viewer.lookAt(state.position, state.target);
@@ -183,7 +206,7 @@ export class App {
 
   private refresh(): void {
     const { viewer } = this;
-    this.panel?.update({ instant: Math.max(0, viewer.instant), picture: viewer.picture, mode: viewer.mode, ev: viewer.ev, exposure: viewer.exposure });
+    this.panel?.update({ instant: Math.max(0, viewer.instant), picture: viewer.picture, mode: viewer.mode, ev: viewer.ev, exposure: viewer.exposure, air: viewer.air, parts: this.bake?.partsOf(Math.max(0, viewer.instant)) ?? [], off: viewer.off });
     this.help.textContent = text.help[viewer.mode];
     this.canvas.dataset['mode'] = viewer.mode;
     this.viewChanged();
@@ -202,7 +225,7 @@ export class App {
     this.linkTimer ??= window.setTimeout(() => {
       this.linkTimer = null;
       const { viewer } = this;
-      const link = formatViewState({ ...viewer.view, mode: viewer.mode, picture: viewer.picture, instant: viewer.instant, ev: viewer.ev });
+      const link = formatViewState({ ...viewer.view, mode: viewer.mode, picture: viewer.picture, instant: viewer.instant, ev: viewer.ev, air: viewer.air, off: viewer.off });
       history.replaceState(null, '', link);
     }, linkIntervalMs);
   }
@@ -217,6 +240,7 @@ export class App {
     else if (event.key === '.' && this.viewer.instant < instants - 1) void this.showInstant(this.viewer.instant + 1);
     else if (event.key === '+' || event.key === '=') this.setEv(this.viewer.ev + 0.5);
     else if (event.key === '-') this.setEv(this.viewer.ev - 0.5);
+    else if (event.code === 'KeyF') this.setAir(!this.viewer.air);
     else if (event.code === 'KeyO') this.setMode('orbit');
     else if (event.code === 'KeyP') this.setMode('walk');
     else if (event.code === 'KeyR') this.showView(0);

@@ -1,4 +1,5 @@
 import type { App } from './app';
+import type { LightPart } from './core/light_parts';
 import type { Mode, Picture } from './core/pictures';
 import type { Vec3 } from './core/units';
 import type { ViewerStats } from './three/viewer';
@@ -13,6 +14,9 @@ export interface TestHook {
   setInstant(index: number): Promise<void>;
   setPicture(picture: Picture): void;
   setMode(mode: Mode): void;
+  setAir(isSeen: boolean): void;
+  /** Switches a part of the light on or off. */
+  setPart(part: LightPart, isOn: boolean): void;
   /** Correction of the exposure, stops. */
   setExposure(ev: number): void;
   /** 'none' multiplies by the exposure and clips, so that a pixel can be computed by hand. */
@@ -44,7 +48,9 @@ export function installTestHook(app: App, ready: Promise<void>): void {
     ready,
     setInstant: (index) => app.showInstant(index),
     setPicture: (picture) => app.setPicture(picture),
+    setPart: (part, isOn) => app.switchPart(part, isOn),
     setMode: (mode) => app.setMode(mode),
+    setAir: (isSeen) => app.setAir(isSeen),
     setExposure: (ev) => app.setEv(ev),
     setToneMapping: (name) => (viewer.toneMapping = name),
     setCamera: (position, target) => viewer.lookAt(position, target),

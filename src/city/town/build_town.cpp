@@ -9,6 +9,7 @@
 #include "city/town/landmarks.h"
 #include "city/town/layout.h"
 #include "city/town/paint.h"
+#include "city/town/street_lamps.h"
 #include "city/town/town.h"
 
 namespace skybake {
@@ -61,6 +62,7 @@ Town build_town(const TownOptions& options) {
         town.city.objects.push_back(build_planned_tower(*site, relief));
     }
 
+    town.lamps = place_lamps(seed, layout, relief);
     town.images = paint_pictures(seed);
     for (const NamedImage& image : town.images) {
         Texture texture;

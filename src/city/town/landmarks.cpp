@@ -296,27 +296,52 @@ std::vector<CityObject> build_hilltop(std::uint64_t, const Relief& relief) {
     return objects;
 }
 
+namespace {
+
+/// Where a bridge lies, and how high its deck is.
+struct BridgeFrame {
+    static constexpr double kReach = River::kBankOffset + 1.5;
+
+    BridgeFrame(const River& river, int segment, const Relief& relief)
+        : along(river.along(segment)),
+          across(along.y, -along.x),
+          centre(0.5 * (river.corner(segment) + river.corner(segment + 1))),
+          west(relief.ground(centre - across * kReach) + 0.05),
+          east(relief.ground(centre + across * kReach) + 0.05) {}
+
+    double deck(double x) const {
+        constexpr double kCamber = 0.9;
+        const double t = (x + kReach) / (2 * kReach);
+        return west + (east - west) * t + kCamber * 4 * t * (1 - t);
+    }
+
+    Vec2d along;
+    Vec2d across;  // from the west bank to the east bank
+    Vec2d centre;
+    double west, east;  // heights of the deck's ends
+};
+
+}  // namespace
+
 bool has_bridge(const Layout& layout, int segment) {
     return (layout.river.number_of(segment) % 4 + 4) % 4 == 1;
+}
+
+Vec3d on_bridge(const Layout& layout, int segment, const Relief& relief, double across, double along) {
+    const BridgeFrame frame(layout.river, segment, relief);
+    return lift(frame.centre + frame.across * across + frame.along * along, frame.deck(across));
 }
 
 CityObject build_bridge(const Layout& layout, int segment, const Relief& relief) {
     // Three arches in a long profile, drawn out over the width; parapets stand on the deck as shells of their own.
     const River& river = layout.river;
     ObjectBuilder bridge("bridge-" + signed_name('n', 's', river.number_of(segment)), ObjectType::bridge, "Bridge");
-    const Vec2d along = river.along(segment);
-    const Vec2d across{along.y, -along.x};  // from the west bank to the east bank
-    const Vec2d centre = 0.5 * (river.corner(segment) + river.corner(segment + 1));
-    constexpr double kReach = River::kBankOffset + 1.5;
+    const BridgeFrame frame(river, segment, relief);
+    const Vec2d along = frame.along, across = frame.across, centre = frame.centre;
+    constexpr double kReach = BridgeFrame::kReach;
     constexpr double kWidth = 9.0;
-    constexpr double kCamber = 0.9;
-    const double west = relief.ground(centre - across * kReach) + 0.05;
-    const double east = relief.ground(centre + across * kReach) + 0.05;
     const double water = relief.water(centre);
-    const auto deck = [&](double x) {
-        const double t = (x + kReach) / (2 * kReach);
-        return west + (east - west) * t + kCamber * 4 * t * (1 - t);
-    };
+    const auto deck = [&](double x) { return frame.deck(x); };
     std::vector<Vec2d> below;  // (across, height), from west to east
     below.emplace_back(-kReach, water - 3.0);
     constexpr double kPier = 1.8;

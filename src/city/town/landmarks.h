@@ -15,6 +15,8 @@ inline constexpr std::uint32_t kHillBuildings = 2;
 std::vector<CityObject> build_hilltop(std::uint64_t seed, const Relief& relief);
 /// A bridge across one segment of the river.
 CityObject build_bridge(const Layout& layout, int segment, const Relief& relief);
+/// A point of its deck, town coordinates: `across` metres east of the river's middle, `along` upstream of the bridge's.
+Vec3d on_bridge(const Layout& layout, int segment, const Relief& relief, double across, double along);
 bool has_bridge(const Layout& layout, int segment);
 CityObject build_column(const Cell& square, const Relief& relief);
 /// 24 × 24 m, 70 m high, id "planned-tower".

@@ -29,9 +29,18 @@ struct NamedImage {
     std::vector<std::uint8_t> pixels;
 };
 
+/// A lantern under an opaque roof: its light goes down and to the sides.
+struct StreetLamp {
+    std::string id;
+    Vec3d position{0.0};  // map coordinates
+    double flux_lm = 0.0;
+    double color_temperature_k = 2700.0;
+};
+
 struct Town {
     CityModel city;                  // EPSG:31256, whole millimetres; its textures name "textures/NAME" without a path
     std::vector<NamedImage> images;  // one for each of the city's textures, in the same order
+    std::vector<StreetLamp> lamps;   // 4 to 6 m above the ground, about 25 m apart, outside of all walls
 };
 
 inline constexpr std::uint32_t kMinTownBuildings = 10;

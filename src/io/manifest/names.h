@@ -18,6 +18,10 @@ inline std::string base(std::size_t page) {
 inline std::string sky_view(std::size_t page) {
     return fmt::format("light/p{}_svf.png", page);
 }
+inline std::string lamps(std::size_t page) {
+    return fmt::format("light/p{}_lamps.png", page);
+}
+inline const char* const kLampScales = "light/lamp_scales.bin";
 inline std::string light(std::size_t instant, std::size_t page) {
     return fmt::format("light/i{}_p{}.exr", instant, page);
 }
@@ -38,6 +42,9 @@ inline std::string scales(std::size_t instant) {
 }
 inline std::string panorama(std::size_t instant) {
     return fmt::format("light/i{}_sky.bin", instant);
+}
+inline std::string air(std::size_t instant) {
+    return fmt::format("light/i{}_air.bin", instant);
 }
 
 }  // namespace skybake::io::names

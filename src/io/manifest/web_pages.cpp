@@ -67,6 +67,15 @@ Image8 light_picture(const LightmapPage& page, const std::vector<Rgb>& light, co
     return image;
 }
 
+/// Makes the scale of each chart of the page at least its largest channel, klx.
+void extend_scales(const LightmapPage& page, const std::vector<Rgb>& light, std::vector<float>& scales_klx) {
+    for (std::size_t t = 0; t < page.state.size(); ++t) {
+        if (page.state[t] == TexelState::empty) continue;
+        float& scale = scales_klx[page.chart[t].index()];
+        scale = std::max(scale, 1e-3f * std::max({light[t].x, light[t].y, light[t].z}));
+    }
+}
+
 }  // namespace
 
 std::vector<ChartScale> chart_scales(const Lightmaps& light, std::size_t instant, std::size_t chart_count) {
@@ -87,15 +96,14 @@ std::vector<ChartScale> chart_scales(const Lightmaps& light, std::size_t instant
 
 std::vector<float> indirect_scales_klx(const Lightmaps& light, std::size_t instant, std::size_t chart_count) {
     std::vector<float> scales(chart_count, 0.0f);
-    for (std::size_t p = 0; p < light.pages.size(); ++p) {
-        const LightmapPage& page = light.pages[p];
-        const std::vector<Rgb>& indirect = light.instants[instant].pages[p].indirect;
-        for (std::size_t t = 0; t < page.state.size(); ++t) {
-            if (page.state[t] == TexelState::empty) continue;
-            float& scale = scales[page.chart[t].index()];
-            scale = std::max(scale, 1e-3f * std::max({indirect[t].x, indirect[t].y, indirect[t].z}));
-        }
-    }
+    for (std::size_t p = 0; p < light.pages.size(); ++p)
+        extend_scales(light.pages[p], light.instants[instant].pages[p].indirect, scales);
+    return scales;
+}
+
+std::vector<float> lamp_scales_klx(const Lightmaps& light, std::size_t chart_count) {
+    std::vector<float> scales(chart_count, 0.0f);
+    for (const LightmapPage& page : light.pages) extend_scales(page, page.lamps, scales);
     return scales;
 }
 
@@ -109,6 +117,10 @@ Image8 indirect_picture(const Lightmaps& light, std::size_t instant, std::size_t
                         const std::vector<float>& scales_klx) {
     return light_picture(light.pages[page], light.instants[instant].pages[page].indirect,
                          [&](std::size_t chart) { return scales_klx[chart]; });
+}
+
+Image8 lamps_picture(const LightmapPage& page, const std::vector<float>& scales_klx) {
+    return light_picture(page, page.lamps, [&](std::size_t chart) { return scales_klx[chart]; });
 }
 
 Image8 sun_picture(const Lightmaps& light, std::size_t instant, std::size_t page,
@@ -132,18 +144,23 @@ Image8 sky_view_picture(const LightmapPage& page) {
 }
 
 double exposure_hint(const Lightmaps& light, std::size_t instant) {
-    double sum_lx = 0.0;
+    double sum_lx = 0.0, lamps_sum = 0.0, lamps_squares = 0.0;
     std::uint64_t count = 0;
     for (std::size_t p = 0; p < light.pages.size(); ++p) {
         for (std::size_t t = 0; t < light.pages[p].state.size(); ++t) {
             if (light.pages[p].state[t] != TexelState::chart) continue;
-            sum_lx += static_cast<double>(luminance(total_irradiance(light.instants[instant], p, t)));
+            sum_lx += static_cast<double>(luminance(total_irradiance(light, instant, p, t)));
             ++count;
+            if (light.pages[p].lamps.empty()) continue;
+            const double lamps_lx = static_cast<double>(luminance(light.pages[p].lamps[t]));
+            lamps_sum += lamps_lx;
+            lamps_squares += lamps_lx * lamps_lx;
         }
     }
     if (count == 0 || !(sum_lx > 0.0)) return 1.0;
-    const double mean_luminance_kcd = sum_lx / static_cast<double>(count) / 1000.0 / kPi;
-    return 0.5 / mean_luminance_kcd;
+    const double mean_lx = sum_lx / static_cast<double>(count);
+    const double under_lamps_lx = lamps_sum > 0.0 ? lamps_squares / lamps_sum : 0.0;
+    return 0.5 / ((mean_lx + under_lamps_lx) / 1000.0 / kPi);
 }
 
 std::uint16_t half_from_float(float value) {

@@ -31,6 +31,10 @@ std::vector<float> indirect_scales_klx(const Lightmaps& light, std::size_t insta
 Image8 indirect_picture(const Lightmaps& light, std::size_t instant, std::size_t page,
                         const std::vector<float>& scales_klx);
 
+/// The same of the lamps' direct light, which all instants share. Of bakes with lamps.
+std::vector<float> lamp_scales_klx(const Lightmaps& light, std::size_t chart_count);
+Image8 lamps_picture(const LightmapPage& page, const std::vector<float>& scales_klx);
+
 /// Sun cosine over the chart's scale, linear grey.
 Image8 sun_picture(const Lightmaps& light, std::size_t instant, std::size_t page,
                    const std::vector<ChartScale>& scales);
@@ -40,7 +44,8 @@ Image8 sun_picture(const Lightmaps& light, std::size_t instant, std::size_t page
 Image8 sky_view_picture(const LightmapPage& page);
 
 /// 0.5 over the mean luminance (kcd m⁻²) that a white diffuse surface would have on all texels of charts; 1 when all is
-/// dark.
+/// dark. With lamps, which leave most of a city dark, the mean of their light weighed by itself is added: what it is
+/// where it is. By day that is nothing; at night streets are not burnt out for the sake of roofs.
 double exposure_hint(const Lightmaps& light, std::size_t instant);
 
 /// IEEE 754 half of a float, rounded to nearest even; beyond its range the largest finite half, and 0 for NaN.

@@ -35,9 +35,11 @@ std::vector<std::uint8_t> bytes_of(const std::vector<T>& values) {
 }
 
 void write_base(const std::filesystem::path& path, const LightmapPage& page) {
-    const std::array<ExrChannel, 3> channels = {ExrChannel{"state", ExrType::uint32},
-                                                ExrChannel{"chart", ExrType::uint32},
-                                                ExrChannel{"sky_view_factor", ExrType::float32}};
+    std::vector<ExrChannel> channels{
+        {"state", ExrType::uint32}, {"chart", ExrType::uint32}, {"sky_view_factor", ExrType::float32}};
+    if (!page.lamps.empty()) {
+        for (const char* name : {"lamps.R", "lamps.G", "lamps.B"}) channels.push_back({name, ExrType::float32});
+    }
     const std::size_t width = static_cast<std::size_t>(page.width);
     write_exr(path, page.width, page.height, channels,
               [&](int row, std::span<std::uint32_t> samples) {
@@ -48,6 +50,9 @@ void write_base(const std::filesystem::path& path, const LightmapPage& page) {
                       samples[width + x] = is_empty ? 0 : page.chart[first + x].value;
                       samples[2 * width + x] =
                           std::bit_cast<std::uint32_t>(is_empty ? 0.0f : page.sky_view_factor[first + x]);
+                      for (int c = 0; c < 3 && !page.lamps.empty(); ++c)
+                          samples[static_cast<std::size_t>(3 + c) * width + x] =
+                              std::bit_cast<std::uint32_t>(page.lamps[first + x][c]);
                   }
               },
               {{"skybake.state", "0 empty, 1 chart, 2 buried, 3 gutter"}});
@@ -56,6 +61,10 @@ void write_base(const std::filesystem::path& path, const LightmapPage& page) {
 /// Reflected light was asked for.
 bool has_indirect(const Lightmaps& light) {
     return !light.instants.empty() && !light.instants[0].pages.empty() && !light.instants[0].pages[0].indirect.empty();
+}
+
+bool has_lamps(const Lightmaps& light) {
+    return !light.pages.empty() && !light.pages[0].lamps.empty();
 }
 
 void write_light(const std::filesystem::path& path, const Lightmaps& light, std::size_t instant, std::size_t page) {
@@ -72,7 +81,7 @@ void write_light(const std::filesystem::path& path, const Lightmaps& light, std:
               [&](int row, std::span<std::uint32_t> samples) {
                   const std::size_t first = static_cast<std::size_t>(row) * width;
                   for (std::size_t x = 0; x < width; ++x) {
-                      const Rgb total = total_irradiance(light.instants[instant], page, first + x);
+                      const Rgb total = total_irradiance(light, instant, page, first + x);
                       const Rgb sun = layer.sun_cosine[first + x] * beam;
                       const Rgb& sky = layer.sky[first + x];
                       for (int c = 0; c < 3; ++c) {
@@ -89,13 +98,24 @@ void write_light(const std::filesystem::path& path, const Lightmaps& light, std:
                {"skybake.instant", light.instants[instant].daylight.label}});
 }
 
-std::vector<std::uint8_t> panorama_bytes(const std::vector<Rgb>& panorama) {
-    std::vector<std::uint16_t> halves;
-    halves.reserve(4 * panorama.size());
-    for (const Rgb& pixel : panorama) {
+/// Luminances in kcd/m² as R, G, B, 1.
+void append_halves(std::vector<std::uint16_t>& halves, const std::vector<Rgb>& luminances) {
+    for (const Rgb& pixel : luminances) {
         for (int c = 0; c < 3; ++c) halves.push_back(half_from_float(1e-3f * pixel[c]));
         halves.push_back(half_from_float(1.0f));
     }
+}
+
+std::vector<std::uint8_t> panorama_bytes(const std::vector<Rgb>& panorama) {
+    std::vector<std::uint16_t> halves;
+    append_halves(halves, panorama);
+    return bytes_of(halves);
+}
+
+std::vector<std::uint8_t> air_bytes(const Air& air) {
+    std::vector<std::uint16_t> halves;
+    append_halves(halves, air.molecule_airlight);
+    append_halves(halves, air.haze_airlight);
     return bytes_of(halves);
 }
 
@@ -124,8 +144,9 @@ void clear_old_bake(const std::filesystem::path& folder) {
     for (const char* name : {names::kManifest, names::kCity}) remove(folder / (std::string(name) + ".part"));
     remove(folder / names::kCity);
     static const std::regex ours(
-        "(p[0-9]+_(base\\.exr|svf\\.png)|i[0-9]+_(p[0-9]+(\\.exr|_sky\\.png|_sun\\.png|_indirect\\.png)|scales\\.bin|"
-        "indirect_scales\\.bin|sky\\.bin))(\\."
+        "(p[0-9]+_(base\\.exr|svf\\.png|lamps\\.png)|lamp_scales\\.bin|i[0-9]+_(p[0-9]+(\\.exr|_sky\\.png|_sun\\.png|_"
+        "indirect\\.png)|scales\\.bin|"
+        "indirect_scales\\.bin|sky\\.bin|air\\.bin))(\\."
         "part)?");
     std::vector<std::filesystem::path> old;
     for (const std::filesystem::directory_entry& entry :
@@ -173,16 +194,24 @@ Json sun_json(const SunBeam& sun) {
 
 /// The figures that come out the same whenever the bake is repeated.
 Json report_json(const BakeReport& r) {
-    Json json = {
-        {"buildings", r.buildings},
-        {"triangles", r.triangles},
-        {"charts", r.charts},
-        {"pages", r.pages},
-        {"texels", r.texels},
-        {"texel_m", r.texel_m},
-        {"rays", {{"sun", r.rays.sun}, {"sky", r.rays.sky}, {"photon", r.rays.photon}, {"feeler", r.rays.feeler}}},
-        {"evaluated_fraction", r.evaluated_fraction},
-        {"predicted_rmse_over_mean", r.predicted_rmse_over_mean}};
+    Json json = {{"buildings", r.buildings},
+                 {"triangles", r.triangles},
+                 {"charts", r.charts},
+                 {"pages", r.pages},
+                 {"texels", r.texels},
+                 {"texel_m", r.texel_m},
+                 {"rays",
+                  {{"sun", r.rays.sun},
+                   {"sky", r.rays.sky},
+                   {"lamp", r.rays.lamp},
+                   {"photon", r.rays.photon},
+                   {"feeler", r.rays.feeler}}},
+                 {"evaluated_fraction", r.evaluated_fraction},
+                 {"predicted_rmse_over_mean", r.predicted_rmse_over_mean}};
+    if (r.lamps > 0) {
+        json["lamps"] = r.lamps;
+        json["lamps_refined_fraction"] = r.lamps_refined_fraction;
+    }
     if (r.photons.emitted > 0.0) {
         json["indirect_evaluated_fraction"] = r.indirect_evaluated_fraction;
         json["photons_stored"] = r.photons.stored;
@@ -207,6 +236,25 @@ Json findings_json(const FindingLog& findings) {
     return list;
 }
 
+Box3f bounds_of(const Scene& scene) {
+    return scene.bounds.is_empty() ? Box3f{Vec3f(0.0f), Vec3f(0.0f)} : scene.bounds;
+}
+
+Json air_json(const Air& air, const BakeOutput& output, std::size_t instant) {
+    return {{"turbidity", output.light.instants[instant].daylight.turbidity},
+            {"base_m", shortest(bounds_of(output.scene).lo.z)},
+            {"molecules_per_m", to_json(air.scattering.molecules)},
+            {"haze_per_m", to_json(air.scattering.haze)},
+            {"molecule_height_m", kMoleculeHeight},
+            {"haze_height_m", kHazeHeight},
+            {"airlight",
+             {{"uri", names::air(instant)},
+              {"columns", air.columns},
+              {"rows", air.rows},
+              {"format", "rgba16f"},
+              {"unit", "kcd/m2"}}}};
+}
+
 Json instant_json(const BakeOutput& output, std::size_t instant, double exposure) {
     const InstantDescription& description = output.description.instants[instant];
     Json pages = Json::array();
@@ -226,7 +274,9 @@ Json instant_json(const BakeOutput& output, std::size_t instant, double exposure
                      {"width", kPanoramaWidth},
                      {"height", kPanoramaHeight},
                      {"format", "rgba16f"},
-                     {"unit", "kcd/m2"}}}};
+                     {"unit", "kcd/m2"}}},
+                   {"land_kcd_m2", to_json(1e-3f * description.land_luminance)}};
+    if (description.air) json["air"] = air_json(*description.air, output, instant);
     json["scales"] = {{"uri", names::scales(instant)}};
     if (has_indirect(output.light)) json["indirect_scales"] = {{"uri", names::indirect_scales(instant)}};
     json["exposure_hint"] = exposure;
@@ -255,6 +305,7 @@ Json manifest_json(const BakeOutput& output, const std::vector<FileHash>& hashes
                          {"height", output.light.pages[p].height},
                          {"base", names::base(p)},
                          {"svf", names::sky_view(p)}});
+        if (has_lamps(output.light)) pages.back()["lamps"] = names::lamps(p);
     }
     Json instants = Json::array();
     for (std::size_t i = 0; i < output.light.instants.size(); ++i)
@@ -262,8 +313,8 @@ Json manifest_json(const BakeOutput& output, const std::vector<FileHash>& hashes
     Json views = Json::array();
     for (const BakeView& view : d.views)
         views.push_back({{"name", view.name}, {"position", to_json(view.position)}, {"target", to_json(view.target)}});
-    const Box3f bounds = output.scene.bounds.is_empty() ? Box3f{Vec3f(0.0f), Vec3f(0.0f)} : output.scene.bounds;
-    return {
+    const Box3f bounds = bounds_of(output.scene);
+    Json manifest = {
         {"format", "skybake-bake"},
         {"version", 1},
         {"generator", {{"name", "skybake"}, {"version", d.version}}},
@@ -294,6 +345,8 @@ Json manifest_json(const BakeOutput& output, const std::vector<FileHash>& hashes
         {"files", files},
         {"report", report_json(output.report)},
         {"findings", findings_json(output.findings)}};
+    if (has_lamps(output.light)) manifest["lamp_scales"] = {{"uri", names::kLampScales}};
+    return manifest;
 }
 
 /// A file, or a group of files that share work; `steps` is a guess of its cost for the progress.
@@ -346,9 +399,21 @@ WrittenBake write_bake(const std::filesystem::path& folder, const BakeOutput& ou
     for (std::size_t f = 0; f < description.inputs.size(); ++f) {
         jobs.push_back({1, [&, f] { hashes[f] = hash_file(description.inputs[f]); }});
     }
+    if (has_lamps(light)) {
+        files.push_back(names::kLampScales);
+        for (std::size_t p = 0; p < page_count; ++p) files.push_back(names::lamps(p));
+        jobs.push_back({1 + page_count, [&] {
+                            const std::vector<float> scales = lamp_scales_klx(light, output.atlas.charts.size());
+                            write_file(folder / names::kLampScales, bytes_of(scales));
+                            tbb::parallel_for(std::size_t{0}, page_count, [&](std::size_t p) {
+                                write_png(folder / names::lamps(p), lamps_picture(light.pages[p], scales));
+                            });
+                        }});
+    }
     for (std::size_t i = 0; i < instant_count; ++i) {
         files.push_back(names::scales(i));
         files.push_back(names::panorama(i));
+        if (description.instants[i].air) files.push_back(names::air(i));
         if (has_indirect(light)) files.push_back(names::indirect_scales(i));
         jobs.push_back(
             {1 + page_count, [&, i] {
@@ -356,6 +421,8 @@ WrittenBake write_bake(const std::filesystem::path& folder, const BakeOutput& ou
                  const std::vector<ChartScale> scales = chart_scales(light, i, output.atlas.charts.size());
                  write_file(folder / names::scales(i), scale_bytes(scales));
                  write_file(folder / names::panorama(i), panorama_bytes(description.instants[i].sky_panorama));
+                 if (description.instants[i].air)
+                     write_file(folder / names::air(i), air_bytes(*description.instants[i].air));
                  std::vector<float> indirect_scales;
                  if (has_indirect(light)) {
                      indirect_scales = indirect_scales_klx(light, i, output.atlas.charts.size());

@@ -16,6 +16,7 @@
 #include "base/site.h"
 #include "io/gltf/glb.h"
 #include "scene/scene.h"
+#include "sky/aerial_perspective.h"
 
 namespace skybake::io {
 
@@ -31,6 +32,8 @@ struct InstantDescription {
     std::optional<std::string> utc;  // ISO 8601 with Z; none when the sun's direction was given
     std::string sky_model;           // as --sky takes it: "preetham:turbidity=3"
     std::vector<Rgb> sky_panorama;   // sky_panorama(sky, kPanoramaWidth, kPanoramaHeight), cd m⁻²
+    Rgb land_luminance{0.0f};        // cd m⁻²
+    std::optional<Air> air;          // none without a sky
 };
 
 inline constexpr int kPanoramaWidth = 512;

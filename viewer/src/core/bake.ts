@@ -1,6 +1,8 @@
+import { parseAirlight, type Airlight } from './air';
 import { fetchBytes, type OnBytes } from './fetch';
 import type { Manifest } from './generated/manifest';
 import validateManifest from './generated/validate_manifest.js';
+import { lightParts, type LightPart } from './light_parts';
 import { LoadError } from './load_error';
 import { Panorama } from './panorama';
 import { text } from './text';
@@ -14,7 +16,16 @@ export interface InstantLight {
   /** One a chart: scale of the page of reflected light (klx); null in a bake without it. */
   indirectScales: Float32Array<ArrayBuffer> | null;
   panorama: Panorama;
+  /** Null in a bake without a sky. */
+  airlight: Airlight | null;
   pages: { sky: EncodedPage; sun: EncodedPage; indirect: EncodedPage | null }[];
+}
+
+/** Direct light of lamps, the same at all instants. */
+export interface LampLight {
+  /** One a chart: scale of the lamps' page (klx). */
+  scales: Float32Array<ArrayBuffer>;
+  pages: EncodedPage[];
 }
 
 export interface EncodedPage {
@@ -80,6 +91,7 @@ export class Bake {
     const instant = this.instant(index);
     const uris = [instant.scales.uri, instant.sky.panorama.uri, ...instant.pages.flatMap((page) => [page.sky, page.sun])];
     if (instant.indirect_scales) uris.push(instant.indirect_scales.uri);
+    if (instant.air) uris.push(instant.air.airlight.uri);
     for (const page of instant.pages) if (page.indirect) uris.push(page.indirect);
     let sum = 0;
     for (const uri of uris) {
@@ -94,6 +106,31 @@ export class Bake {
     return fetchBytes(this.url(uri), this.bytesOf(uri), onBytes, signal);
   }
 
+  /** The parts of light that are in the files of an instant, or of all. */
+  partsOf(index: number): LightPart[] {
+    const instant = this.instant(index);
+    const has: Record<LightPart, boolean> = {
+      sun: instant.sun.shape !== 'none' && instant.sun.normal_illuminance_klx.some((klx) => klx > 0),
+      sky: true,
+      indirect: instant.indirect_scales !== undefined,
+      lamps: this.manifest.lamp_scales !== undefined,
+    };
+    return lightParts.filter((part) => has[part]);
+  }
+
+  /** The lamps' light; null in a bake without lamps. Throws LoadError. */
+  async loadLamps(onBytes: OnBytes): Promise<LampLight | null> {
+    const { lamp_scales: scales, pages, charts } = this.manifest;
+    if (!scales) return null;
+    return {
+      scales: parseScales(this.url(scales.uri), await this.fetch(scales.uri, onBytes), charts),
+      pages: await Promise.all(pages.map(async ({ lamps, width, height }) => {
+        if (lamps === undefined) throw new LoadError(this.manifestUrl, text.error.noLampPage);
+        return { url: this.url(lamps), bytes: await this.fetch(lamps, onBytes), width, height };
+      })),
+    };
+  }
+
   /** All files of an instant at once. Throws LoadError; rejects when `signal` aborts. */
   async loadInstant(index: number, chartCount: number, onBytes: OnBytes, signal?: AbortSignal): Promise<InstantLight> {
     const instant = this.instant(index);
@@ -103,12 +140,13 @@ export class Bake {
     };
     const scalesOf = (uri: string, count: number): Promise<Float32Array<ArrayBuffer>> =>
       this.fetch(uri, onBytes, signal).then((bytes) => parseScales(this.url(uri), bytes, count));
-    const [scales, indirectScales, panorama, pages] = await Promise.all([
+    const [scales, indirectScales, panorama, airlight, pages] = await Promise.all([
       scalesOf(instant.scales.uri, 2 * chartCount),
       instant.indirect_scales ? scalesOf(instant.indirect_scales.uri, chartCount) : null,
       this.fetch(instant.sky.panorama.uri, onBytes, signal).then((bytes) =>
         Panorama.fromBytes(this.url(instant.sky.panorama.uri), bytes, instant.sky.panorama.width, instant.sky.panorama.height),
       ),
+      instant.air ? this.loadAirlight(instant.air.airlight, onBytes, signal) : null,
       Promise.all(
         instant.pages.map(async (files, p) => {
           const [sky, sun, indirect] = await Promise.all([page(files.sky, p), page(files.sun, p), files.indirect ? page(files.indirect, p) : null]);
@@ -116,7 +154,11 @@ export class Bake {
         }),
       ),
     ]);
-    return { scales, indirectScales, panorama, pages };
+    return { scales, indirectScales, panorama, airlight, pages };
+  }
+
+  private async loadAirlight({ uri, columns, rows }: { uri: string; columns: number; rows: number }, onBytes: OnBytes, signal?: AbortSignal): Promise<Airlight> {
+    return parseAirlight(this.url(uri), await this.fetch(uri, onBytes, signal), columns, rows);
   }
 }
 

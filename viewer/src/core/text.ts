@@ -16,6 +16,14 @@ export const text = {
     textures: 'Textures alone, without light',
     light: 'Light alone, on white walls',
   },
+  parts: 'Light of',
+  partNames: { sun: 'Sun', sky: 'Sky', indirect: 'Reflections', lamps: 'Lamps' },
+  partHints: {
+    sun: 'Direct sunlight',
+    sky: 'Skylight',
+    indirect: 'Light that walls and ground reflect',
+    lamps: 'Direct light of lamps',
+  },
   navigation: 'Move',
   modes: { orbit: 'Orbit', walk: 'Walk' },
   modeHints: { orbit: 'Fly about the city', walk: 'Walk on the ground, eye at 1.7 m' },
@@ -28,11 +36,16 @@ export const text = {
   exposureValue: (ev: number, total: number) =>
     `${ev > 0 ? '+' : ev < 0 ? '−' : '±'}${Math.abs(ev).toFixed(1)} EV · white at ${formatLuminance(1 / total)}`,
   exposureUnused: 'not used: no light in this picture',
+  air: 'Air',
+  airSwitch: 'Haze over distance',
+  airHint: 'What the air between you and the city takes and adds; off: as in a vacuum',
+  airNote: (turbidity: number, sightKm: number) => `turbidity ${turbidity.toFixed(1)}: sight ${sightKm.toFixed(0)} km`,
+  airUnused: 'not used in this picture',
   hidePanel: 'Hide',
   showPanel: 'Settings',
   help: {
-    orbit: 'Drag: turn · Right drag or Shift+drag: shift · Wheel: nearer · P: walk · 1 2 3: picture · , .: time · + −: exposure · R: reset · H: hide panel',
-    walk: 'W A S D or arrows: walk · Shift: run · Drag: look · O: orbit · 1 2 3: picture · , .: time · + −: exposure · R: reset · H: hide panel',
+    orbit: 'Drag: turn · Right drag or Shift+drag: shift · Wheel: nearer · P: walk · 1 2 3: picture · , .: time · + −: exposure · F: haze · R: reset · H: hide panel',
+    walk: 'W A S D or arrows: walk · Shift: run · Drag: look · O: orbit · 1 2 3: picture · , .: time · + −: exposure · F: haze · R: reset · H: hide panel',
   },
   movePad: 'Walk',
   movePadButtons: { forward: 'Forward', back: 'Back', left: 'Left', right: 'Right' },
@@ -41,7 +54,7 @@ export const text = {
       ? `Sun below the horizon (${elevation.toFixed(1)}°)`
       : `Sun: azimuth ${azimuth.toFixed(1)}°, elevation ${elevation.toFixed(1)}°, beam ${klx.toFixed(klx < 10 ? 1 : 0)} klx`,
   noSun: 'No sun: skylight alone',
-  baked: (texelM: number) => `Sun, shadows and skylight are baked at ${formatLength(texelM)}; nothing is computed live.`,
+  baked: (texelM: number) => `All light and shadow is baked at ${formatLength(texelM)}; nothing is computed live.`,
   loading: (what: string) => `Loading ${what}`,
   loadingParts: { manifest: 'the bake’s description', city: 'the city', light: (label: string) => `the light of ${label}` },
   bytes: (loaded: number, total: number | null) =>
@@ -65,6 +78,7 @@ export const text = {
     notAModel: (why: string) => `The file is not a glTF model that can be shown: ${why}`,
     emptyModel: 'The model holds no surfaces.',
     noLightmap: (material: string) => `The material “${material}” names no lightmap page (SKYBAKE_lightmap).`,
+    noLampPage: 'The bake’s description names lamps, but a page without their light.',
     noInstants: 'The bake holds no instant, so there is no light to show.',
     tooManyCharts: (got: number, expected: number) => `The model speaks of ${got} charts; the bake’s description has ${expected}. They belong to different bakes.`,
     noCoordinates: (mesh: string) => `The mesh “${mesh}” lacks TEXCOORD_1 or _CHART, without which it cannot be lit.`,
@@ -83,5 +97,7 @@ function formatLength(metres: number): string {
 }
 
 function formatLuminance(kcdPerM2: number): string {
-  return kcdPerM2 >= 1 ? `${kcdPerM2.toFixed(1)} kcd/m²` : `${(kcdPerM2 * 1000).toFixed(0)} cd/m²`;
+  if (kcdPerM2 >= 1) return `${kcdPerM2.toFixed(1)} kcd/m²`;
+  const cd = kcdPerM2 * 1000;
+  return `${cd >= 10 ? cd.toFixed(0) : cd.toPrecision(2)} cd/m²`;
 }

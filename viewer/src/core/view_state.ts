@@ -1,4 +1,5 @@
 import { isMode, isPicture, type Mode, type Picture } from './pictures';
+import { isLightPart, type LightPart } from './light_parts';
 import type { Vec3 } from './units';
 
 /** What a link restores. Positions are local world metres, z up. */
@@ -9,12 +10,17 @@ export interface ViewState {
   picture: Picture;
   instant: number;
   ev: number;
+  /** The air between the eye and the city is drawn. */
+  air: boolean;
+  /** Parts of the light that are switched off. */
+  off: readonly LightPart[];
 }
 
 const metres = (v: Vec3) => v.map((c) => c.toFixed(2)).join(',');
 
 export function formatViewState(state: ViewState): string {
-  return `#v=1&m=${state.mode}&p=${metres(state.position)}&t=${metres(state.target)}&s=${state.picture}&i=${state.instant}&ev=${state.ev.toFixed(1)}`;
+  const off = state.off.length > 0 ? `&off=${state.off.join(',')}` : '';
+  return `#v=1&m=${state.mode}&p=${metres(state.position)}&t=${metres(state.target)}&s=${state.picture}&i=${state.instant}&ev=${state.ev.toFixed(1)}${state.air ? '' : '&a=0'}${off}`;
 }
 
 /** Reads what it understands and leaves out the rest: an old or hand-written link still opens the city. */
@@ -36,6 +42,10 @@ export function parseViewState(hash: string): Partial<ViewState> {
   if (Number.isInteger(instant) && instant >= 0) state.instant = instant;
   const ev = Number(fields.get('ev') ?? NaN);
   if (Number.isFinite(ev)) state.ev = ev;
+  const air = fields.get('a');
+  if (air === '0' || air === '1') state.air = air === '1';
+  const off = fields.get('off');
+  if (off !== null) state.off = off.split(',').filter(isLightPart);
   return state;
 }
 

@@ -62,6 +62,7 @@ export async function loadCity(url: string, bytes: Uint8Array<ArrayBuffer>, page
     uSkyPage: { value: null },
     uSunPage: { value: null },
     uIndirectPage: { value: null },
+    uLampPage: { value: null },
     uPageSize: { value: new THREE.Vector2(size.width, size.height) },
   }));
   const parts = new Map<string, { lit: LitMaterial; meshes: THREE.Mesh[] }>();

@@ -1,5 +1,7 @@
 import * as THREE from 'three';
+import { lightParts, type LightPart } from '../core/light_parts';
 import type { Picture } from '../core/pictures';
+import { airShader, makeAirUniforms, type AirUniforms } from './air';
 
 const pictureNumber: Record<Picture, number> = { lit: 0, textures: 1, light: 2 };
 
@@ -7,12 +9,13 @@ const pictureNumber: Record<Picture, number> = { lit: 0, textures: 1, light: 2 }
 export const scalesWidth = 2048;
 
 /** Uniforms that all materials share by reference: a change is seen by all of them at the next frame. */
-export interface SharedUniforms {
-  [name: string]: THREE.IUniform;
+export interface SharedUniforms extends AirUniforms {
   uScales: THREE.IUniform<THREE.Texture | null>;
   uSunKlx: THREE.IUniform<THREE.Vector3>;
   uExposure: THREE.IUniform<number>;
   uPicture: THREE.IUniform<number>;
+  /** 1 or 0 for the light of sun, sky, reflections and lamps. */
+  uParts: THREE.IUniform<THREE.Vector4>;
 }
 
 /** The lightmap textures of one page, shared by the materials that lie in it. */
@@ -20,6 +23,7 @@ export interface PageUniforms {
   uSkyPage: THREE.IUniform<THREE.Texture | null>;
   uSunPage: THREE.IUniform<THREE.Texture | null>;
   uIndirectPage: THREE.IUniform<THREE.Texture | null>;
+  uLampPage: THREE.IUniform<THREE.Texture | null>;
   uPageSize: THREE.IUniform<THREE.Vector2>;
 }
 
@@ -29,11 +33,17 @@ export function makeSharedUniforms(): SharedUniforms {
     uSunKlx: { value: new THREE.Vector3() },
     uExposure: { value: 1 },
     uPicture: { value: 0 },
+    ...makeAirUniforms(),
+    uParts: { value: new THREE.Vector4(1, 1, 1, 1) },
   };
 }
 
 export function setPicture(uniforms: SharedUniforms, picture: Picture): void {
   uniforms.uPicture.value = pictureNumber[picture];
+}
+
+export function setPartsOff(uniforms: SharedUniforms, off: readonly LightPart[]): void {
+  uniforms.uParts.value.fromArray(lightParts.map((part) => (off.includes(part) ? 0 : 1)));
 }
 
 /**
@@ -65,7 +75,8 @@ uniform highp sampler2D uScales;
 uniform mat3 uMapTransform;
 out vec2 vUv;
 centroid out vec2 vLightUv;
-flat out vec3 vScale;
+flat out vec4 vScale;
+out vec3 vPosition;
 #ifdef USE_COLOR
 out vec3 vTint;
 #endif
@@ -81,25 +92,29 @@ void main() {
   #endif
   vLightUv = uv1;
   int chart = int(_chart + 0.5);
-  vScale = texelFetch(uScales, ivec2(chart % ${scalesWidth}, chart / ${scalesWidth}), 0).rgb;
+  vScale = texelFetch(uScales, ivec2(chart % ${scalesWidth}, chart / ${scalesWidth}), 0);
+  vPosition = position; // meshes stand in scene coordinates
   gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
 }
 `;
 
 // E [klx] = sky page (sRGB decoded by the hardware, before it filters) × the chart's sky scale
 //         + sun page × the chart's sun scale × the beam's normal illuminance
-//         + indirect page (likewise) × the chart's indirect scale;  L [kcd/m²] = albedo/π × E.
+//         + indirect page (likewise) × the chart's indirect scale + lamps' page × the chart's lamp scale;  L [kcd/m²] = albedo/π × E.
 // The gutter about a chart is two texels wide: level 1 of the mip chain is the last one whose bilinear footprint stays inside it.
 const fragmentShader = /* glsl */ `
 in vec2 vUv;
 centroid in vec2 vLightUv;
-flat in vec3 vScale;
+flat in vec4 vScale;
+in vec3 vPosition;
 #ifdef USE_COLOR
 in vec3 vTint;
 #endif
 uniform sampler2D uSkyPage;
 uniform sampler2D uSunPage;
 uniform sampler2D uIndirectPage;
+uniform sampler2D uLampPage;
+uniform vec4 uParts;
 uniform vec2 uPageSize;
 uniform vec3 uSunKlx;
 uniform vec3 uBaseColor;
@@ -113,6 +128,7 @@ uniform float uBaseAlpha;
 #endif
 layout(location = 0) out vec4 outColor;
 ${displayShader}
+${airShader}
 
 void main() {
   vec3 albedo = uBaseColor;
@@ -137,8 +153,15 @@ void main() {
   vec3 sky = textureLod(uSkyPage, vLightUv, level).rgb * vScale.x;
   float sunCosine = textureLod(uSunPage, vLightUv, level).r * vScale.y;
   vec3 indirect = vScale.z > 0.0 ? textureLod(uIndirectPage, vLightUv, level).rgb * vScale.z : vec3(0.0);
-  vec3 illuminance = sky + sunCosine * uSunKlx + indirect;
-  outColor = toDisplay(albedo * illuminance * RECIPROCAL_PI);
+  vec3 lamps = vScale.w > 0.0 ? textureLod(uLampPage, vLightUv, level).rgb * vScale.w : vec3(0.0);
+  vec3 illuminance = uParts.x * sunCosine * uSunKlx + uParts.y * sky + uParts.z * indirect + uParts.w * lamps;
+  vec3 radiance = albedo * illuminance * RECIPROCAL_PI;
+  if (uPicture == ${pictureNumber.lit}) { // light alone is for comparing walls, near and far
+    vec3 ray = vPosition - cameraPosition;
+    float metres = length(ray);
+    radiance = throughAir(radiance, ray / max(metres, 1e-6), metres);
+  }
+  outColor = toDisplay(radiance);
 }
 `;
 

@@ -1,7 +1,8 @@
 import * as THREE from 'three';
-import type { BakedInstant, EncodedPage, InstantLight } from '../core/bake';
+import type { BakedInstant, EncodedPage, InstantLight, LampLight } from '../core/bake';
 import { LoadError } from '../core/load_error';
 import { text } from '../core/text';
+import { applyAir } from './air';
 import type { PageUniforms, SharedUniforms } from './city_material';
 import { scalesWidth } from './city_material';
 
@@ -10,11 +11,19 @@ export interface LightTextures {
   scales: THREE.DataTexture;
   pages: { sky: THREE.Texture; sun: THREE.Texture; indirect: THREE.Texture | null }[];
   panorama: THREE.DataTexture;
+  air: { molecules: THREE.DataTexture; haze: THREE.DataTexture } | null;
   dispose(): void;
 }
 
-/** Decodes the pages of an instant. Throws LoadError when a page is not the picture that the manifest announces. */
-export async function makeLightTextures(light: InstantLight): Promise<LightTextures> {
+/** The lamps' pages on the graphics card. Throws LoadError. */
+export async function makeLampTextures(lamps: LampLight): Promise<THREE.Texture[]> {
+  const textures = await Promise.all(lamps.pages.map(decodePage));
+  for (const texture of textures) texture.colorSpace = THREE.SRGBColorSpace;
+  return textures;
+}
+
+/** Decodes the pages of an instant. `lampScales`: of the lamps, that every instant shows too. Throws LoadError when a page is not the picture that the manifest announces. */
+export async function makeLightTextures(light: InstantLight, lampScales: Float32Array<ArrayBuffer> | null): Promise<LightTextures> {
   const pages = await Promise.all(
     light.pages.map(async ({ sky, sun, indirect }) => {
       const [skyTexture, sunTexture, indirectTexture] = await Promise.all([decodePage(sky), decodePage(sun), indirect ? decodePage(indirect) : null]);
@@ -25,21 +34,24 @@ export async function makeLightTextures(light: InstantLight): Promise<LightTextu
       return { sky: skyTexture, sun: sunTexture, indirect: indirectTexture };
     }),
   );
-  const scales = makeScalesTexture(light.scales, light.indirectScales);
+  const scales = makeScalesTexture(light.scales, light.indirectScales, lampScales);
   const { width, height, halves } = light.panorama;
-  const panorama = new THREE.DataTexture(halves, width, height, THREE.RGBAFormat, THREE.HalfFloatType);
-  panorama.minFilter = THREE.LinearFilter;
-  panorama.magFilter = THREE.LinearFilter;
-  panorama.wrapS = THREE.RepeatWrapping;
-  panorama.wrapT = THREE.ClampToEdgeWrapping;
-  panorama.needsUpdate = true;
+  const panorama = makeTurnTexture(halves, width, height);
+  const { airlight } = light;
+  const air = airlight && {
+    molecules: makeTurnTexture(airlight.molecules, airlight.columns, airlight.rows),
+    haze: makeTurnTexture(airlight.haze, airlight.columns, airlight.rows),
+  };
   return {
     scales,
     pages,
     panorama,
+    air,
     dispose() {
       scales.dispose();
       panorama.dispose();
+      air?.molecules.dispose();
+      air?.haze.dispose();
       for (const { sky, sun, indirect } of pages) {
         sky.dispose();
         sun.dispose();
@@ -53,11 +65,23 @@ export async function makeLightTextures(light: InstantLight): Promise<LightTextu
 export function applyLight(textures: LightTextures, instant: BakedInstant, shared: SharedUniforms, pages: readonly PageUniforms[]): void {
   shared.uScales.value = textures.scales;
   shared.uSunKlx.value.fromArray(instant.sun.normal_illuminance_klx);
+  if (instant.air && textures.air) applyAir(shared, instant.air, instant.sun.direction as [number, number, number], textures.air);
   pages.forEach((page, p) => {
     page.uSkyPage.value = textures.pages[p]?.sky ?? null;
     page.uSunPage.value = textures.pages[p]?.sun ?? null;
     page.uIndirectPage.value = textures.pages[p]?.indirect ?? null;
   });
+}
+
+/** RGBA half floats, bilinear, whose columns go round. */
+function makeTurnTexture(halves: Uint16Array<ArrayBuffer>, columns: number, rows: number): THREE.DataTexture {
+  const texture = new THREE.DataTexture(halves, columns, rows, THREE.RGBAFormat, THREE.HalfFloatType);
+  texture.minFilter = THREE.LinearFilter;
+  texture.magFilter = THREE.LinearFilter;
+  texture.wrapS = THREE.RepeatWrapping;
+  texture.wrapT = THREE.ClampToEdgeWrapping;
+  texture.needsUpdate = true;
+  return texture;
 }
 
 async function decodePage(page: EncodedPage): Promise<THREE.Texture> {
@@ -81,13 +105,17 @@ async function decodePage(page: EncodedPage): Promise<THREE.Texture> {
   return texture;
 }
 
-/** A pixel a chart: scales of sky, sun and reflected light; without the last its scale is 0, and no page is needed. */
-function makeScalesTexture(scales: Float32Array<ArrayBuffer>, indirectScales: Float32Array<ArrayBuffer> | null): THREE.DataTexture {
+/** A pixel a chart: scales of sky, sun, reflected light and lamps; without the last two their scale is 0, and no page is needed. */
+function makeScalesTexture(
+  scales: Float32Array<ArrayBuffer>,
+  indirectScales: Float32Array<ArrayBuffer> | null,
+  lampScales: Float32Array<ArrayBuffer> | null,
+): THREE.DataTexture {
   const charts = scales.length / 2;
   const height = Math.max(1, Math.ceil(charts / scalesWidth));
   const padded = new Float32Array(scalesWidth * height * 4);
   for (let chart = 0; chart < charts; ++chart) {
-    padded.set([scales[2 * chart] ?? 0, scales[2 * chart + 1] ?? 0, indirectScales?.[chart] ?? 0], 4 * chart);
+    padded.set([scales[2 * chart] ?? 0, scales[2 * chart + 1] ?? 0, indirectScales?.[chart] ?? 0, lampScales?.[chart] ?? 0], 4 * chart);
   }
   const texture = new THREE.DataTexture(padded, scalesWidth, height, THREE.RGBAFormat, THREE.FloatType);
   texture.minFilter = THREE.NearestFilter;

@@ -1,6 +1,7 @@
 import * as THREE from 'three';
 import type { BakedInstant } from '../core/bake';
-import { groundRadiance, type Panorama } from '../core/panorama';
+import type { Panorama } from '../core/panorama';
+import { airShader } from './air';
 import { displayShader, type SharedUniforms } from './city_material';
 
 const vertexShader = /* glsl */ `
@@ -21,14 +22,15 @@ in vec3 vRay;
 uniform sampler2D uPanorama;
 uniform vec3 uSunDirection;
 uniform vec3 uSunKlx;
-uniform vec3 uGround;
-uniform vec3 uHorizon;
+uniform vec3 uLand;
+uniform float uLandHeight;
 uniform float uSunRadius;
 uniform bool uHasSun;
 uniform float uPanoramaHeight;
 uniform int uPicture;
 layout(location = 0) out vec4 outColor;
 ${displayShader}
+${airShader}
 
 const float kPi = 3.141592653589793;
 
@@ -47,15 +49,16 @@ void main() {
   float row = clamp(1.0 - elevation / (0.5 * kPi), 0.5 / uPanoramaHeight, 1.0 - 0.5 / uPanoramaHeight);
   vec3 sky = textureLod(uPanorama, vec2(azimuth / (2.0 * kPi), row), 0.0).rgb;
 
-  // Below the horizon far land lies under haze: it fades from the sky's own horizon into sunlit ground within a few degrees.
-  float below = max(0.0, -elevation);
-  vec3 radiance = mix(uGround, mix(sky, uHorizon, 0.35 * smoothstep(0.0, 0.02, below)), exp(-below / 0.055));
+  // Below the horizon level land goes on as far as the air lets one see; the horizon's edge is as wide as a pixel.
+  float pixel = max(length(fwidth(direction)), 1e-5);
+  float toLand = max(cameraPosition.y - uLandHeight, 1.0) / max(-direction.y, 1e-5);
+  vec3 land = throughAir(uLand, direction, toLand);
+  vec3 radiance = mix(land, sky, smoothstep(-0.5 * pixel, 0.5 * pixel, elevation));
 
   if (uHasSun) {
     float angle = acos(clamp(dot(direction, uSunDirection), -1.0, 1.0));
-    float pixel = max(length(fwidth(direction)), 1e-5);
     // Half the beam within the disc would already be white; the disc keeps its true radius, softened over one pixel.
-    float disc = (1.0 - smoothstep(uSunRadius - 0.5 * pixel, uSunRadius + 0.5 * pixel, angle)) * smoothstep(-0.001, 0.001, elevation);
+    float disc = (1.0 - smoothstep(uSunRadius - 0.5 * pixel, uSunRadius + 0.5 * pixel, angle)) * smoothstep(-0.5 * pixel, 0.5 * pixel, elevation);
     vec3 discRadiance = uSunKlx / (kPi * uSunRadius * uSunRadius);
     // Forward scatter of the eye and of haze about the sun; strength and width by eye, well below the sky's own aureole from 5° on.
     vec3 glow = uSunKlx * (0.6 * exp(-angle / 0.012) + 0.05 * exp(-angle / 0.06)) * smoothstep(-0.02, 0.01, elevation);
@@ -78,17 +81,15 @@ export class SkyDome {
       name: 'sky',
       glslVersion: THREE.GLSL3,
       uniforms: {
-        uExposure: shared.uExposure,
-        uPicture: shared.uPicture,
-        uSunKlx: shared.uSunKlx,
+        ...shared,
         uClipToWorld: { value: this.clipToWorld },
         uPanorama: { value: null },
         uPanoramaHeight: { value: 1 },
         uSunDirection: { value: new THREE.Vector3(0, 1, 0) },
         uSunRadius: { value: 0.00465 },
         uHasSun: { value: false },
-        uGround: { value: new THREE.Vector3() },
-        uHorizon: { value: new THREE.Vector3() },
+        uLand: { value: new THREE.Vector3() },
+        uLandHeight: { value: 0 },
       },
       vertexShader,
       fragmentShader,
@@ -104,7 +105,8 @@ export class SkyDome {
     };
   }
 
-  apply(texture: THREE.DataTexture, panorama: Panorama, instant: BakedInstant): void {
+  /** `landHeightM` is where the land about the city lies. */
+  apply(texture: THREE.DataTexture, panorama: Panorama, instant: BakedInstant, landHeightM: number): void {
     const uniforms = this.mesh.material.uniforms;
     const { sun } = instant;
     const set = (name: string, value: unknown) => {
@@ -117,8 +119,8 @@ export class SkyDome {
     set('uSunDirection', new THREE.Vector3(east, up, -north).normalize());
     set('uSunRadius', THREE.MathUtils.degToRad(sun.angular_radius_deg));
     set('uHasSun', sun.shape !== 'none' && sun.normal_illuminance_klx.some((klx) => klx > 0));
-    set('uGround', new THREE.Vector3(...groundRadiance(panorama.horizontalIlluminance(), sun.normal_illuminance_klx, up)));
-    set('uHorizon', new THREE.Vector3(...panorama.horizonMean()));
+    set('uLand', new THREE.Vector3().fromArray(instant.sky.land_kcd_m2));
+    set('uLandHeight', landHeightM);
   }
 
   dispose(): void {

@@ -1,15 +1,16 @@
 import * as THREE from 'three';
-import type { Bake } from '../core/bake';
+import type { Bake, LampLight } from '../core/bake';
 import { exposureFactor } from '../core/exposure';
 import type { OnBytes } from '../core/fetch';
+import type { LightPart } from '../core/light_parts';
 import { LoadError } from '../core/load_error';
 import type { Mode, Picture } from '../core/pictures';
 import { text } from '../core/text';
 import { sceneToWorld, worldToScene, type Vec3 } from '../core/units';
-import { makeSharedUniforms, setPicture } from './city_material';
+import { makeSharedUniforms, setPartsOff, setPicture } from './city_material';
 import { loadCity, type City } from './city';
 import { Ground } from './ground';
-import { applyLight, makeLightTextures, type LightTextures } from './light';
+import { applyLight, makeLampTextures, makeLightTextures, type LightTextures } from './light';
 import { OrbitMode } from './orbit';
 import { SkyDome } from './sky';
 import { WalkMode, type WalkKey } from './walk';
@@ -43,11 +44,15 @@ export class Viewer {
   private ground: Ground | null = null;
   private city: City | null = null;
   private light: LightTextures | null = null;
+  private lamps: LampLight | null = null;
+  private lampTextures: THREE.Texture[] = [];
+  private partsOff: readonly LightPart[] = [];
   private bake: Bake | null = null;
   private currentMode: Mode = 'orbit';
   private currentPicture: Picture = 'lit';
   private currentInstant = -1;
   private currentEv = 0;
+  private isAirSeen = true;
   private requestedInstant = -1;
   private loading: AbortController | null = null;
   private frameRequest: number | null = null;
@@ -82,6 +87,11 @@ export class Viewer {
     const city = await loadCity(bake.url(cityUri), bytes, bake.manifest.pages, this.shared, this.renderer.capabilities.getMaxAnisotropy());
     if (city.chartCount > bake.manifest.charts) throw new LoadError(bake.url(cityUri), text.error.tooManyCharts(city.chartCount, bake.manifest.charts));
     this.city = city;
+    this.lamps = await bake.loadLamps(onBytes);
+    if (this.lamps) {
+      this.lampTextures = await makeLampTextures(this.lamps);
+      city.pages.forEach((page, p) => (page.uLampPage.value = this.lampTextures[p] ?? null));
+    }
     this.orbit = new OrbitMode(this.camera, this.canvas, city.bounds, () => this.changed());
     this.orbit.enabled = true;
     this.lookAt(this.birdsEye().position, this.birdsEye().target);
@@ -101,7 +111,7 @@ export class Viewer {
     this.requestedInstant = index;
     try {
       const files = await bake.loadInstant(index, bake.manifest.charts, onBytes, loading.signal);
-      const light = await makeLightTextures(files);
+      const light = await makeLightTextures(files, this.lamps?.scales ?? null);
       if (loading.signal.aborted) {
         light.dispose();
         return false;
@@ -110,10 +120,11 @@ export class Viewer {
       const old = this.light;
       this.light = light;
       applyLight(light, instant, this.shared, city.pages);
-      this.sky.apply(light.panorama, files.panorama, instant);
+      this.sky.apply(light.panorama, files.panorama, instant, bake.manifest.bounds.min[2] ?? 0);
       old?.dispose();
       if (!city.group.parent) this.scene.add(city.group);
       this.currentInstant = index;
+      this.shared.uHasAir.value = this.isAirSeen && this.hasAir;
       this.applyExposure();
       this.changed();
       return true;
@@ -136,6 +147,33 @@ export class Viewer {
     this.currentPicture = picture;
     setPicture(this.shared, picture);
     this.applyExposure();
+    this.changed();
+  }
+
+  /** Whether the air between the eye and the city is drawn, in bakes that know it. */
+  get air(): boolean {
+    return this.isAirSeen;
+  }
+
+  set air(isSeen: boolean) {
+    this.isAirSeen = isSeen;
+    this.shared.uHasAir.value = isSeen && this.hasAir;
+    this.changed();
+  }
+
+  /** Whether the instant on show has air. */
+  get hasAir(): boolean {
+    return this.bake !== null && this.currentInstant >= 0 && this.bake.instant(this.currentInstant).air !== undefined;
+  }
+
+  /** Parts of the light that the city is shown without. */
+  get off(): readonly LightPart[] {
+    return this.partsOff;
+  }
+
+  set off(parts: readonly LightPart[]) {
+    this.partsOff = parts;
+    setPartsOff(this.shared, parts);
     this.changed();
   }
 
@@ -333,6 +371,7 @@ export class Viewer {
     this.walk?.dispose();
     this.city?.dispose();
     this.light?.dispose();
+    for (const texture of this.lampTextures) texture.dispose();
     this.sky.dispose();
     this.renderer.dispose();
   }

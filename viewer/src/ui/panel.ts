@@ -1,4 +1,5 @@
 import { evRange } from '../core/exposure';
+import { lightParts, type LightPart } from '../core/light_parts';
 import { modes, pictures, type Mode, type Picture } from '../core/pictures';
 import { text } from '../core/text';
 import { element } from './element';
@@ -9,6 +10,8 @@ export interface PanelActions {
   mode(mode: Mode): void;
   view(index: number): void;
   ev(ev: number): void;
+  air(isSeen: boolean): void;
+  part(part: LightPart, isOn: boolean): void;
 }
 
 export interface PanelState {
@@ -17,6 +20,10 @@ export interface PanelState {
   mode: Mode;
   ev: number;
   exposure: number;
+  air: boolean;
+  /** Parts of light that the instant has, and those that are switched off. */
+  parts: readonly LightPart[];
+  off: readonly LightPart[];
 }
 
 export interface PanelContent {
@@ -35,10 +42,14 @@ export class Panel {
   private readonly earlier: HTMLButtonElement;
   private readonly later: HTMLButtonElement;
   private readonly pictureButtons = new Map<Picture, HTMLButtonElement>();
+  private readonly partButtons = new Map<LightPart, HTMLButtonElement>();
   private readonly modeButtons = new Map<Mode, HTMLButtonElement>();
   private readonly viewSelect: HTMLSelectElement;
   private readonly evSlider: HTMLInputElement;
   private readonly evLabel: HTMLElement;
+  private readonly airSwitch: HTMLInputElement;
+  private readonly airLabel: HTMLElement;
+  private airNote: string | null = null;
   private readonly sunNote: HTMLElement;
   private shownInstant = 0;
 
@@ -60,6 +71,12 @@ export class Panel {
       this.pictureButtons.set(picture, button);
       return button;
     }));
+    const partGroup = element('div', { class: 'group' }, lightParts.map((part) => {
+      const button = element('button', { type: 'button', title: text.partHints[part] }, [text.partNames[part]]);
+      button.addEventListener('click', () => actions.part(part, button.getAttribute('aria-pressed') !== 'true'));
+      this.partButtons.set(part, button);
+      return button;
+    }));
     const modeGroup = element('div', { class: 'group' }, modes.map((mode) => {
       const button = element('button', { type: 'button', title: `${text.modeHints[mode]} (${mode === 'orbit' ? 'O' : 'P'})` }, [text.modes[mode]]);
       button.addEventListener('click', () => actions.mode(mode));
@@ -79,6 +96,10 @@ export class Panel {
     const evReset = element('button', { type: 'button' }, [text.exposureReset]);
     evReset.addEventListener('click', () => actions.ev(0));
 
+    this.airSwitch = element('input', { type: 'checkbox', id: 'air', title: `${text.airHint} (F)` });
+    this.airSwitch.addEventListener('change', () => actions.air(this.airSwitch.checked));
+    this.airLabel = element('span', { class: 'label' });
+
     const hide = element('button', { type: 'button', title: `${text.hidePanel} (H)` }, [text.hidePanel]);
     hide.addEventListener('click', () => this.show(false));
     this.opener = element('button', { type: 'button', class: 'open-panel', hidden: '' }, [text.showPanel]);
@@ -93,12 +114,18 @@ export class Panel {
       element('div', { class: 'field' }, last > 0 ? [...instantFields, this.instantSlider] : instantFields),
       this.sunNote,
       element('fieldset', { class: 'field' }, [element('legend', {}, [text.picture]), pictureGroup]),
+      element('fieldset', { class: 'field' }, [element('legend', {}, [text.parts]), partGroup]),
       element('fieldset', { class: 'field' }, [element('legend', {}, [text.navigation]), modeGroup]),
       element('div', { class: 'field' }, [element('label', { for: 'view' }, [text.views]), this.viewSelect]),
       element('div', { class: 'field' }, [
         element('label', { for: 'ev' }, [text.exposure]),
         element('div', { class: 'row' }, [this.evSlider, evReset]),
         this.evLabel,
+      ]),
+      element('fieldset', { class: 'field' }, [
+        element('legend', {}, [text.air]),
+        element('div', { class: 'row' }, [this.airSwitch, element('label', { for: 'air' }, [text.airSwitch])]),
+        this.airLabel,
       ]),
       element('p', { class: 'note' }, [text.baked(content.texelM)]),
     ]);
@@ -124,16 +151,28 @@ export class Panel {
     this.later.disabled = state.instant >= this.instantSelect.options.length - 1;
     for (const [picture, button] of this.pictureButtons) button.setAttribute('aria-pressed', String(picture === state.picture));
     for (const [mode, button] of this.modeButtons) button.setAttribute('aria-pressed', String(mode === state.mode));
+    for (const [part, button] of this.partButtons) {
+      button.hidden = !state.parts.includes(part);
+      button.setAttribute('aria-pressed', String(!state.off.includes(part)));
+    }
     const isExposed = state.picture !== 'textures';
     this.evSlider.value = String(state.ev);
     this.evSlider.disabled = !isExposed;
     this.evLabel.textContent = isExposed ? text.exposureValue(state.ev, state.exposure) : text.exposureUnused;
     this.evSlider.setAttribute('aria-valuetext', this.evLabel.textContent);
+    this.airSwitch.checked = state.air && this.airNote !== null;
+    this.airSwitch.disabled = state.picture !== 'lit' || this.airNote === null;
+    this.airLabel.textContent = this.airSwitch.disabled ? text.airUnused : this.airNote;
   }
 
   /** Marks the view that is shown, or none when the user moved on by themselves. */
   showView(index: number | null): void {
     this.viewSelect.value = index === null ? '' : String(index);
+  }
+
+  /** What is known of the air; null where there is none to draw. Shown with the next update. */
+  setAirNote(note: string | null): void {
+    this.airNote = note;
   }
 
   showSun(note: string): void {

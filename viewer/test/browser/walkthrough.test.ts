@@ -5,10 +5,13 @@ import path from 'node:path';
 import { fileURLToPath } from 'node:url';
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+import { parseAirlight } from '../../src/core/air';
 import type { TestHook } from '../../src/test_hook';
+import type { LightPart } from '../../src/core/light_parts';
 import { srgbEncode } from '../../src/core/units';
 import { findChromium, launch, openPage } from '../support/chromium';
-import { fixtureBeam, fixtureInstants, whiteCard, writeFixture } from '../support/fixture';
+import { viewThrough } from '../support/air';
+import { fixtureAir, fixtureBeam, fixtureInstants, fixtureSun, whiteCard, writeFixture } from '../support/fixture';
 import { decodePng, encodePng } from '../support/png';
 import { serve, type Host } from '../support/static_host';
 
@@ -80,26 +83,36 @@ describe.skipIf(!chromium)('the walkthrough of the synthetic bake', () => {
     fs.rmSync(folder, { recursive: true, force: true });
   });
 
-  test('a white wall of known light gives the pixel that paper and pencil give', async () => {
+  test.each([
+    ['all of its light', []],
+    ['no lamps', ['lamps']],
+    ['the lamp alone', ['sun', 'sky']],
+  ] as const)('a white wall of known light gives the pixel that paper and pencil give, with %s', async (_, off) => {
     const [x, y, z] = whiteCard.center;
     await page.evaluate(([cx, cy, cz]) => {
       window.skybake!.setToneMapping('none');
       window.skybake!.setPicture('lit');
+      window.skybake!.setAir(false);
       window.skybake!.setCamera([cx!, cy! - 3, cz!], [cx!, cy!, cz!]);
     }, [x, y, z]);
-    const exposure = await page.evaluate(() => {
-      window.skybake!.setExposure(-2.5); // bright light, but below the clip
+    const exposure = await page.evaluate((parts) => {
+      for (const part of parts) window.skybake!.setPart(part, false);
+      window.skybake!.setExposure(parts.length > 1 ? 1.5 : -2.5); // bright light, but below the clip
       return window.skybake!.exposure();
-    });
+    }, off);
     const block = 16;
     const pixels = await page.evaluate(([px, py, n]) => window.skybake!.readPixels(px!, py!, n!, n!), [size.width / 2 - 8, size.height / 2 - 8, block]);
-    await page.evaluate(() => {
+    await page.evaluate((parts) => {
+      for (const part of parts) window.skybake!.setPart(part, true);
       window.skybake!.setToneMapping('agx');
       window.skybake!.setExposure(0);
-    });
+      window.skybake!.setAir(true);
+    }, off);
+    const isOn = (part: LightPart) => (off as readonly LightPart[]).includes(part) ? 0 : 1;
     for (let c = 0; c < 3; ++c) {
-      // L = (E_sky + cos·E_sun) / π for albedo 1, then exposure, sRGB, 8 bit.
-      const illuminance = whiteCard.skyKlx[c]! + whiteCard.sunCosine * fixtureBeam[c]!;
+      // L = (E_sky + cos·E_sun + E_lamps) / π for albedo 1, then exposure, sRGB, 8 bit.
+      const illuminance =
+        isOn('sky') * whiteCard.skyKlx[c]! + isOn('sun') * whiteCard.sunCosine * fixtureBeam[c]! + isOn('lamps') * whiteCard.lampKlx[c]!;
       const expected = 255 * srgbEncode((illuminance / Math.PI) * exposure);
       expect(expected).toBeLessThan(250);
       expect(expected).toBeGreaterThan(60);
@@ -111,6 +124,52 @@ describe.skipIf(!chromium)('the walkthrough of the synthetic bake', () => {
       }
       expect(Math.abs(mean - expected)).toBeLessThanOrEqual(1);
     }
+  });
+
+  test('the same wall through the air is what the C++ formula gives', async () => {
+    const tables = parseAirlight('air.bin', new Uint8Array(fs.readFileSync(path.join(folder, fixtureAir(0).airlight.uri))), 4, 6);
+    for (const eye of [[-20, -110, 2], [-45, -90, 30]] as const) {
+      const pixel = await page.evaluate(([from, to, px, py]) => {
+        const hook = window.skybake!;
+        hook.setToneMapping('none');
+        hook.setPicture('lit');
+        hook.setCamera(from, to);
+        hook.setExposure(-2.5);
+        const block = hook.readPixels(px, py, 4, 4);
+        const value = { exposure: hook.exposure(), mean: [0, 1, 2].map((c) => block.reduce((sum, v, i) => (i % 4 === c ? sum + v / 16 : sum), 0)) };
+        hook.setToneMapping('agx');
+        hook.setExposure(0);
+        return value;
+      }, [eye, whiteCard.center, size.width / 2 - 2, size.height / 2 - 2] as const);
+      const ray = whiteCard.center.map((v, i) => v - eye[i]!) as [number, number, number];
+      const metres = Math.hypot(...ray);
+      const seen = viewThrough(fixtureAir(0), tables, fixtureSun, eye[2], ray.map((v) => v / metres) as [number, number, number], metres);
+      for (const c of [0, 1, 2] as const) {
+        const radiance = (whiteCard.skyKlx[c] + whiteCard.sunCosine * fixtureBeam[c] + whiteCard.lampKlx[c]) / Math.PI;
+        const expected = 255 * srgbEncode((radiance * seen[c]!.transmittance + seen[c]!.inscatter) * pixel.exposure);
+        const withoutAir = 255 * srgbEncode(radiance * pixel.exposure);
+        expect(Math.abs(expected - withoutAir)).toBeGreaterThan(3); // else the test would see nothing
+        expect(Math.abs(pixel.mean[c]! - expected)).toBeLessThanOrEqual(1);
+      }
+    }
+  });
+
+  test('the switch takes the air away and brings it back, and the link remembers', async () => {
+    await page.evaluate(() => {
+      window.skybake!.setPicture('lit');
+      window.skybake!.setCamera([70, -85, 55], [0, 0, 4]);
+    });
+    const withAir = await canvas(page, size.width, size.height);
+    await page.getByLabel('Haze over distance').uncheck();
+    expect(differingShare(withAir, await canvas(page, size.width, size.height))).toBeGreaterThan(0.3);
+    await page.waitForTimeout(500);
+    expect(page.url()).toContain('&a=0');
+    await page.locator('canvas').focus();
+    await page.keyboard.press('f');
+    expect(differingShare(withAir, await canvas(page, size.width, size.height))).toBe(0);
+    await page.keyboard.press('3');
+    expect(await page.getByLabel('Haze over distance').isDisabled()).toBe(true);
+    await page.keyboard.press('1');
   });
 
   test.each([

@@ -33,10 +33,25 @@ const boxes: Box[] = [
   { min: [10, -30, 0], max: [22, -14, 24], material: 1 },
 ];
 
+/** Thick haze, so that a hundred metres are seen to matter. */
+export function fixtureAir(instant: number): NonNullable<Instant['air']> {
+  return {
+    turbidity: 20,
+    base_m: 0,
+    molecules_per_m: [1e-4, 2e-4, 4e-4],
+    haze_per_m: [1.5e-3, 1.6e-3, 1.7e-3],
+    molecule_height_m: 8803,
+    haze_height_m: 1200,
+    airlight: { uri: `light/i${instant}_air.bin`, columns: 4, rows: 6, format: 'rgba16f', unit: 'kcd/m2' },
+  };
+}
+
 /** The white card stands free and faces south; its light is written down, not computed. */
 export const whiteCard = {
   center: [-20, -20, 2] as V3,
-  skyKlx: [8, 10, 12] as V3,
+  skyKlx: [5, 8, 11] as V3,
+  /** Of a lamp that lights nothing else. */
+  lampKlx: [3, 2, 1] as V3,
   sunCosine: 0.5,
 };
 
@@ -49,6 +64,20 @@ const instants = [
 export const fixtureInstants = instants.length;
 /** Normal illuminance of the first instant's beam, klx. */
 export const fixtureBeam = instants[0]!.beam;
+
+/** Molecules evenly in the colour of the zenith; haze in that of the horizon, brighter towards the sun and unlike to its four sides. */
+function airlight({ zenith, horizon }: (typeof instants)[number]): Buffer {
+  const { columns, rows } = fixtureAir(0).airlight;
+  const table = (value: (row: number, column: number) => V3) =>
+    Array.from({ length: columns * rows }, (_, i) => [...value(Math.floor(i / columns), i % columns), 1]).flat();
+  const numbers = [
+    ...table(() => zenith),
+    ...table((row, column) => horizon.map((l) => l * (0.6 + 0.8 * (1 - row / (rows - 1)) + (row > 0 ? 0.1 * column : 0))) as V3),
+  ];
+  const bytes = Buffer.alloc(2 * numbers.length);
+  numbers.forEach((value, i) => bytes.writeUInt16LE(halfBits(value), 2 * i));
+  return bytes;
+}
 
 function boxFaces(box: Box): Face[] {
   const [x0, y0, z0] = box.min;
@@ -90,6 +119,9 @@ function sunDirection(azimuthDeg: number, elevationDeg: number): V3 {
   const [a, e] = [(azimuthDeg * Math.PI) / 180, (elevationDeg * Math.PI) / 180];
   return [Math.sin(a) * Math.cos(e), Math.cos(a) * Math.cos(e), Math.sin(e)];
 }
+
+/** Direction to the first instant's sun. */
+export const fixtureSun = sunDirection(instants[0]!.azimuth, instants[0]!.elevation);
 
 /** 96 directions over the upper hemisphere: enough for soft corners. */
 const dome: { direction: V3; solidAngle: number; rise: number }[] = [];
@@ -209,6 +241,19 @@ export function writeFixture(folder: string): Manifest {
     return texels;
   });
 
+  const lampScale = Math.max(...whiteCard.lampKlx);
+  const lampPages = pages.map(({ width, height }) => new Uint8Array(width * height * 3));
+  for (const chart of charts.filter(({ face }) => face.light)) {
+    for (let row = -gutter; row < chart.rows + gutter; ++row) {
+      for (let column = -gutter; column < chart.columns + gutter; ++column) {
+        const at = (chart.y + row) * pages[chart.page]!.width + chart.x + column;
+        lampPages[chart.page]!.set(whiteCard.lampKlx.map((e) => Math.round(255 * srgbEncode(e / lampScale))), 3 * at);
+      }
+    }
+  }
+  pages.forEach((page, p) => write(`light/p${p}_lamps.png`, encodePng({ ...page, channels: 3, pixels: lampPages[p]! })));
+  write('light/lamp_scales.bin', Buffer.from(new Float32Array(charts.map(({ face }) => (face.light ? lampScale : 0))).buffer));
+
   const manifestInstants = instants.map((instant, i): Instant => {
     const scales = new Float32Array(charts.length * 2);
     const sky = pages.map(({ width, height }) => new Uint8Array(width * height * 3));
@@ -231,12 +276,14 @@ export function writeFixture(folder: string): Manifest {
         }
       }
       for (const texel of own) {
-        luminanceSum += luminance(add(texel.sky, instant.beam, texel.sunCosine)) / Math.PI;
+        const lamp: V3 = chart.face.light ? whiteCard.lampKlx : [0, 0, 0];
+        luminanceSum += luminance(add(add(texel.sky, lamp), instant.beam, texel.sunCosine)) / Math.PI;
         ++texels;
       }
     });
     write(`light/i${i}_scales.bin`, Buffer.from(scales.buffer));
     write(`light/i${i}_sky.bin`, panorama(instant, 512, 128));
+    write(`light/i${i}_air.bin`, airlight(instant));
     pages.forEach((page, p) => {
       write(`light/i${i}_p${p}_sky.png`, encodePng({ ...page, channels: 3, pixels: sky[p]! }));
       write(`light/i${i}_p${p}_sun.png`, encodePng({ ...page, channels: 1, pixels: sun[p]! }));
@@ -253,7 +300,8 @@ export function writeFixture(folder: string): Manifest {
         dni_w_m2: 800,
         angular_radius_deg: 0.2665,
       },
-      sky: { model: 'made by hand', panorama: { uri: `light/i${i}_sky.bin`, width: 512, height: 128, format: 'rgba16f', unit: 'kcd/m2' } },
+      sky: { model: 'made by hand', panorama: { uri: `light/i${i}_sky.bin`, width: 512, height: 128, format: 'rgba16f', unit: 'kcd/m2' }, land_kcd_m2: [4, 3.9, 3.5] },
+      air: fixtureAir(i),
       scales: { uri: `light/i${i}_scales.bin` },
       exposure_hint: (0.5 * texels) / luminanceSum,
       pages: pages.map((_, p) => ({ exr: `light/i${i}_p${p}.exr`, sky: `light/i${i}_p${p}_sky.png`, sun: `light/i${i}_p${p}_sun.png` })),
@@ -279,8 +327,9 @@ export function writeFixture(folder: string): Manifest {
     inputs: [],
     isa: 'none',
     units: { illuminance: 'lx', luminance: 'cd/m2', length: 'm', angle: 'degree', color: 'linear Rec. 709, photometric: 0.2126 R + 0.7152 G + 0.0722 B is the illuminance or luminance' },
-    pages: pages.map(({ width, height }, p) => ({ width, height, base: `light/p${p}_base.exr`, svf: `light/p${p}_svf.png` })),
+    pages: pages.map(({ width, height }, p) => ({ width, height, base: `light/p${p}_base.exr`, svf: `light/p${p}_svf.png`, lamps: `light/p${p}_lamps.png` })),
     charts: charts.length,
+    lamp_scales: { uri: 'light/lamp_scales.bin' },
     instants: manifestInstants,
     views: [
       { name: 'From the south-east', position: [70, -85, 55], target: [0, 0, 4] },

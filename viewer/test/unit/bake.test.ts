@@ -72,6 +72,19 @@ describe('Bake', () => {
     expect(bytes).toBe(bake.bytesOfInstant(1));
   });
 
+  test('loads the lamps, and none where there are none', async () => {
+    const bake = await Bake.load(`${host.url}manifest.json`, () => undefined);
+    const lamps = await bake.loadLamps(() => undefined);
+    expect(lamps?.pages).toHaveLength(manifest.pages.length);
+    expect(lamps?.scales).toHaveLength(manifest.charts);
+    expect(bake.partsOf(0)).toEqual(['sun', 'sky', 'lamps']);
+    const { lamp_scales, ...dark } = bake.manifest;
+    expect(lamp_scales).toBeDefined();
+    const day = new Bake(dark, bake.manifestUrl);
+    expect(await day.loadLamps(() => undefined)).toBeNull();
+    expect(day.partsOf(0)).toEqual(['sun', 'sky']);
+  });
+
   test('a file of another size than announced is a damaged copy', async () => {
     const bake = await Bake.load(`${host.url}manifest.json`, () => undefined);
     const cut = new Bake({ ...bake.manifest, files: bake.manifest.files.map((f) => (f.name === 'light/i0_scales.bin' ? { ...f, bytes: f.bytes + 1 } : f)) }, bake.manifestUrl);

@@ -2,9 +2,11 @@ import { expect, test } from 'vitest';
 import { clampEv, exposureFactor } from '../../src/core/exposure';
 import { formatViewState, parseViewState, type ViewState } from '../../src/core/view_state';
 
-const state: ViewState = { mode: 'walk', position: [1.5, -2.25, 1.7], target: [3, 4, -0.5], picture: 'light', instant: 2, ev: -0.5 };
+const state: ViewState = { mode: 'walk', position: [1.5, -2.25, 1.7], target: [3, 4, -0.5], picture: 'light', instant: 2, ev: -0.5, air: false, off: ['sun', 'lamps'] };
 
 test('a link gives back what was sent', () => expect(parseViewState(formatViewState(state))).toEqual(state));
+
+test('a link of before there was air shows it', () => expect(parseViewState('#v=1&m=walk')).toEqual({ mode: 'walk' }));
 
 test.each([
   ['', {}],
@@ -15,6 +17,7 @@ test.each([
   ['#v=1&p=1,2,3', {}],
   ['#v=1&p=1,two,3&t=0,0,0', {}],
   ['#v=1&m=orbit&i=3', { mode: 'orbit', instant: 3 }],
+  ['#v=1&off=moon,lamps', { off: ['lamps'] }],
 ])('of %j only what makes sense is taken', (hash, expected) => expect(parseViewState(hash)).toEqual(expected));
 
 test('one stop doubles the exposure', () => {

@@ -1,0 +1,71 @@
+// Places in the texels of one chart that rays leave from, and packets of them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "atlas/chart_samples.h"
+#include "trace/ray_scene.h"
+
+namespace skybake {
+
+/// A texel's 16 subsamples: the centres of 4 × 4 parts.
+inline constexpr int kSubdivision = 4;
+inline constexpr int kSubsamples = kSubdivision * kSubdivision;
+
+class TexelPoints {
+  public:
+    TexelPoints(const Scene& scene, const Chart& chart, const ChartSamples& samples, const RayScene& rays)
+        : scene_(scene), chart_(chart), samples_(samples), offset_(rays.surface_offset()) {}
+
+    Vec3f normal(std::size_t texel) const;
+
+    /// The texel's own point, lifted off the surface.
+    Vec3f lifted(std::size_t texel) const { return samples_.position[texel] + offset_ * normal(texel); }
+
+    /// Subsample `sub` of the texel in its tangent plane, lifted off it; none where that is outside the polygon.
+    std::optional<Vec3f> subsample(int column, int row, int sub) const;
+
+  private:
+    bool is_on_surface(int column, int row, const Vec2f& point) const;
+
+    const Scene& scene_;
+    const Chart& chart_;
+    const ChartSamples& samples_;
+    float offset_;
+};
+
+/// Collects rays and traces them sixteen at a time through `Packet::occluded`; on_free(tag) is called for each ray that
+/// nothing blocks, in the order of their coming.
+template <typename Packet, typename Tag, typename OnFree>
+class RayBatch {
+  public:
+    RayBatch(Packet& packet, OnFree on_free) : packet_(packet), on_free_(on_free) {}
+    void add(const Vec3f& p, const Tag& tag) {
+        x_[count_] = p.x;
+        y_[count_] = p.y;
+        z_[count_] = p.z;
+        tag_[count_++] = tag;
+        if (count_ == RayScene::kPacketSize) flush();
+    }
+    void flush() {
+        if (count_ == 0) return;
+        const std::uint32_t blocked = packet_.occluded(x_.data(), y_.data(), z_.data(), count_);
+        for (int i = 0; i < count_; ++i) {
+            if (!(blocked >> i & 1u)) on_free_(tag_[i]);
+        }
+        traced += static_cast<std::uint64_t>(count_);
+        count_ = 0;
+    }
+    std::uint64_t traced = 0;
+
+  private:
+    Packet& packet_;
+    OnFree on_free_;
+    std::array<float, RayScene::kPacketSize> x_, y_, z_;
+    std::array<Tag, RayScene::kPacketSize> tag_;
+    int count_ = 0;
+};
+
+}  // namespace skybake
