@@ -6,7 +6,7 @@ BUILD := build/$(PRESET)
 VIEWER_SOURCES := $(shell find viewer -path viewer/node_modules -prune -o -path viewer/dist -prune -o -type f -print 2>/dev/null)
 export SKYBAKE_COMPILER_LAUNCHER ?= $(shell command -v ccache 2>/dev/null)
 
-.PHONY: demo test build program viewer packages unit asan tsan bench format tidy clean
+.PHONY: demo test build program viewer packages unit asan tsan fuzz bench format tidy clean
 
 demo: program
 	$(BUILD)/bin/skybake demo demo $(DEMO_FLAGS)
@@ -39,6 +39,13 @@ tsan:
 .PHONY: sanitized
 sanitized: build
 	ctest --preset $(PRESET) -L 'unit|stat'
+
+# The readers on damaged files, FUZZ_SECONDS each: tools/fuzz says what it found.
+FUZZ_SECONDS ?= 60
+fuzz: packages
+	cmake --preset fuzz >/dev/null
+	cmake --build --preset fuzz
+	tools/fuzz build/fuzz $(FUZZ_SECONDS)
 
 bench: build
 	bench/run $(BUILD)

@@ -45,13 +45,23 @@ inline Scene load_scene(const std::string& file, double radius_m, float texel_m)
     return build_scene(part, scene_options({}, texel_m), findings);
 }
 
-/// Noon of midsummer in Graz, Preetham's sky of turbidity 3.
-inline std::vector<Daylight> midsummer_noon() {
+/// Preetham's sky of turbidity 3 with the sun at `azimuth_deg` from grid north and `elevation_deg`.
+inline Daylight clear_day(double azimuth_deg, double elevation_deg) {
     DaylightSettings settings;
     settings.sky = parse_sky("preetham:turbidity=3");
-    settings.sun_direction = SunDirection{radians_from_degrees(180.0), radians_from_degrees(66.0)};
+    settings.sun_direction = SunDirection{radians_from_degrees(azimuth_deg), radians_from_degrees(elevation_deg)};
     FindingLog findings;
-    return make_daylights(settings, std::nullopt, 0.0, findings);
+    return make_daylights(settings, std::nullopt, 0.0, findings).front();
+}
+
+/// Noon of midsummer in Graz.
+inline std::vector<Daylight> midsummer_noon() {
+    return {clear_day(180.0, 66.0)};
+}
+
+/// The sun at 35° in the south-south-west: long shadows, and streets that are half lit.
+inline Daylight afternoon() {
+    return clear_day(200.0, 35.0);
 }
 
 }  // namespace skybake::bench

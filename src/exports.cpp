@@ -47,6 +47,18 @@ Site site_of(const std::array<double, 2>& degrees) {
     return {radians_from_degrees(degrees[0]), radians_from_degrees(degrees[1]), 0.0};
 }
 
+std::optional<BounceOptions> bounces_of(const Bake& settings) {
+    if (settings.indirect == "none") return std::nullopt;
+    if (settings.bounces < 1 || settings.bounces > 1000) throw InputError("bake: bounces must lie between 1 and 1000.");
+    if (settings.photons && (*settings.photons < 1 || *settings.photons > 1'000'000'000))
+        throw InputError("bake: photons must lie between 1 and 1 000 000 000.");
+    if (settings.paths < 2 || settings.paths > 1 << 30)
+        throw InputError("bake: paths must lie between 2 and 1 073 741 824.");
+    if (settings.indirect == "photons") return BouncePhotons{{settings.photons, settings.bounces, settings.seed}, {}};
+    if (settings.indirect == "reference") return PathOptions{settings.paths, settings.bounces, settings.seed};
+    throw InputError("bake: indirect is \"none\", \"photons\" or \"reference\".");
+}
+
 /// Runs `body` and turns the layers' exceptions into those of the promise.
 template <typename Body>
 auto translated(const Body& body) {
@@ -100,6 +112,8 @@ BakeResult bake(const Bake& settings) {
             throw InputError("bake: sampling is \"projected\", \"hierarchical\" or \"full\".");
         options.bake.sampling = static_cast<SkySampling>(sampling - kSkySamplingNames.begin());
         options.bake.tolerance = static_cast<float>(settings.tolerance);
+        options.bake.bounces = bounces_of(settings);
+        options.seed = settings.seed;
         options.daylight.sky = parse_sky(settings.sky);
         load_sky_image(options.daylight.sky);
         options.daylight.sun = parse_sun_shape(settings.sun);
@@ -111,8 +125,16 @@ BakeResult bake(const Bake& settings) {
         }
         if (settings.site_deg) options.site = site_of(*settings.site_deg);
         options.version = version();
-        options.settings = {
-            {"sky", settings.sky}, {"sun", settings.sun}, {"ground", settings.ground}, {"lod", settings.lod}};
+        options.settings = {{"sky", settings.sky},
+                            {"sun", settings.sun},
+                            {"ground", settings.ground},
+                            {"lod", settings.lod},
+                            {"indirect", settings.indirect}};
+        if (options.bake.bounces) options.settings.emplace_back("bounces", std::to_string(settings.bounces));
+        if (settings.indirect == "photons")
+            options.settings.emplace_back("photons",
+                                          settings.photons ? std::to_string(*settings.photons) : "20 per m2");
+        if (settings.indirect == "reference") options.settings.emplace_back("paths", std::to_string(settings.paths));
         CallbackProgress progress(settings.progress);
         const BakeCityResult result = bake_city(options, progress);
         BakeResult answer;
@@ -124,6 +146,8 @@ BakeResult bake(const Bake& settings) {
         answer.sky_rays = result.report.rays.sky;
         answer.seconds = result.report.seconds.total;
         answer.evaluated_fraction = result.report.evaluated_fraction;
+        answer.indirect_mean_lx = result.report.indirect.mean_lx;
+        answer.indirect_error_lx = result.report.indirect.error_lx;
         for (const Finding& f : result.findings.list())
             answer.findings.push_back({f.code, name_of(f.severity), f.where, f.what, f.remedy, f.count});
         return answer;

@@ -26,18 +26,19 @@ void add_bounce_options(CLI::App* verb, BounceOptions& options) {
         ->type_name("N")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
-    verb->add_option("--photons", options.photons, "photons that sun, sky and lamps send out, for each instant")
+    verb->add_option("--photons", options.photons,
+                     "photons that sun, sky and lamps send out, for each instant; default: 20 a m2 of surface, at "
+                     "least 1 million")
         ->group(kGroup)
         ->type_name("N")
-        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}))
-        ->capture_default_str();
+        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}));
     verb->add_option("--nearest", options.nearest, "photons that count at a point")
         ->group(kGroup)
         ->type_name("N")
         ->check(CLI::Range(10, 100000))
         ->capture_default_str();
     verb->add_option("--area", options.area,
-                     "of these photons: their extended bounding octagon, or the circle about the point")
+                     "of these photons: their convex hull or bounding octagon, extended, or the circle about the point")
         ->group(kGroup)
         ->check(CLI::IsMember(std::vector<std::string>(kPhotonAreaNames.begin(), kPhotonAreaNames.end())))
         ->capture_default_str();
@@ -46,10 +47,7 @@ void add_bounce_options(CLI::App* verb, BounceOptions& options) {
         ->group(kGroup)
         ->check(CLI::IsMember({0, 4, 8}))
         ->capture_default_str();
-}
-
-void add_point_options(CLI::App* verb, BounceOptions& options) {
-    verb->add_option("--paths", options.paths, "paths per point of --indirect reference")
+    verb->add_option("--paths", options.paths, "paths per point or texel of --indirect reference")
         ->group(kGroup)
         ->type_name("N")
         ->check(CLI::Range(2, 1 << 30))
@@ -68,8 +66,12 @@ Indirect indirect_of(const BounceOptions& options) {
 std::vector<std::pair<std::string, std::string>> settings_of(const BounceOptions& options) {
     std::vector<std::pair<std::string, std::string>> settings{{"indirect", options.indirect}};
     if (options.indirect == "none") return settings;
-    settings.insert(settings.end(), {{"bounces", std::to_string(options.bounces)},
-                                     {"photons", std::to_string(options.photons)},
+    settings.emplace_back("bounces", std::to_string(options.bounces));
+    if (options.indirect == "reference") {
+        settings.emplace_back("paths", std::to_string(options.paths));
+        return settings;
+    }
+    settings.insert(settings.end(), {{"photons", options.photons ? std::to_string(*options.photons) : "20 per m2"},
                                      {"nearest", std::to_string(options.nearest)},
                                      {"area", options.area},
                                      {"feelers", std::to_string(options.feelers)}});

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -19,16 +20,16 @@ enum class Indirect { none, photons, reference };
 struct BounceOptions {
     std::string indirect = "none";
     int bounces = 8;
-    int paths = 1024;  // per point, of the reference
-    std::uint64_t photons = 1'000'000;
+    int paths = 1024;                      // per point, of the reference
+    std::optional<std::uint64_t> photons;  // without: 20 a square metre of surface
+
     int nearest = 100;
     std::string area{kPhotonAreaNames[0]};
     int feelers = 8;
 };
 
-/// --indirect, --bounces, --photons, --nearest, --area and --feelers.
+/// --indirect, --bounces, --photons, --nearest, --area, --feelers and --paths.
 void add_bounce_options(CLI::App* verb, BounceOptions& options);
-/// --paths.
 void add_point_options(CLI::App* verb, BounceOptions& options);
 
 /// Throws InputError for a method that there is not, naming the nearest.

@@ -47,6 +47,7 @@ int run_arguments(std::vector<std::string> arguments) {
     add_probe(app, program);
     add_compare(app, program);
     add_view(app, program);
+    add_render(app, program);
     add_sun(app, program);
     add_sky(app, program);
     add_study(app, program);

@@ -28,6 +28,7 @@ struct Options {
     float texel_m = 0.5f;
     std::string sampling{kSkySamplingNames[0]};
     float tolerance = 0.01f;
+    bool reports_leaks = false;
 };
 
 /// What decides the bytes of a bake, by the names of the options.
@@ -58,13 +59,22 @@ std::vector<std::pair<std::string, std::string>> settings_of(const Options& opti
     return settings;
 }
 
+std::string leak_text(const LeakReport& leaks, const std::filesystem::path& folder) {
+    if (leaks.texels == 0) return "leaks: no texel would be lit through a wall.";
+    const LeakReport::Place& w = leaks.worst;
+    return fmt::format(
+        "leaks: feelers keep light from {} texels, {:.1f} m2, {:.3g} lm in all; most on page {}, column {}, row {}: "
+        "{:.0f} lx beside the {:.0f} lx there. Pictures: {}, red at {:.0f} lx",
+        leaks.texels, leaks.area_m2, leaks.lumen, w.page, w.column, w.row, w.leak_lx, w.total_lx,
+        (folder / "light/i*_p*_leaks.png").string(), leaks.picture_range_lx);
+}
+
 int run(const CommonOptions& common, const Options& options) {
     check_light_options(options.light);
     const Indirect indirect = indirect_of(options.bounce);
-    if (indirect == Indirect::reference)
+    if (options.reports_leaks && (indirect != Indirect::photons || options.bounce.feelers == 0))
         throw InputError(
-            "--indirect reference: in this version paths answer at points, by skybake probe. Write --indirect "
-            "photons.");
+            "--report-leaks: tells what feelers keep out; write --indirect photons with --feelers 4 or 8.");
     viewer_assets();  // a bake without its walkthrough is not whole: say so before the work
     const ThreadLimit threads(common.threads);
     BakeCityOptions bake;
@@ -83,6 +93,8 @@ int run(const CommonOptions& common, const Options& options) {
     bake.lamps_origin = origin_of(options.lamps);
     bake.bake.lamp_sampling.cutoff_lx = options.lamp_cutoff_lx;
     if (bake.bake.sampling == SkySampling::full) bake.bake.lamp_sampling.sampling = LampSampling::full;
+    if (indirect == Indirect::reference) bake.bake.bounces = path_options_of(options.bounce, common.seed);
+    bake.bake.keeps_leaks = options.reports_leaks;
     bake.seed = common.seed;
     bake.version = SKYBAKE_VERSION;
     bake.settings = settings_of(options);
@@ -115,7 +127,7 @@ int run(const CommonOptions& common, const Options& options) {
                                 static_cast<double>(report.rays.lamp) * 1e-6 / std::max(s.lamps, 1e-9),
                                 100.0 * report.lamps_refined_fraction));
     }
-    if (bake.bake.bounces) {
+    if (indirect == Indirect::photons) {
         const PhotonBalance& p = report.photons;
         say(common, fmt::format("photons: {:.1f} million rays at {:.1f} million a second, {:.1f} million at rest; of "
                                 "{:.3g} lm {:.1f} % "
@@ -126,6 +138,12 @@ int run(const CommonOptions& common, const Options& options) {
                                 100.0 * p.escaped / p.emitted, 100.0 * p.at_limit / p.emitted,
                                 100.0 * report.indirect_evaluated_fraction));
     }
+    if (indirect == Indirect::reference) {
+        say(common,
+            fmt::format("paths: for {:.1f} % of the texels; {:.0f} lx reflected on the mean, standard error {:.1f} lx",
+                        100.0 * report.indirect_evaluated_fraction, report.indirect.mean_lx, report.indirect.error_lx));
+    }
+    if (report.leaks) say(common, leak_text(*report.leaks, options.output));
     say(common,
         fmt::format("{:.1f} s: read {:.1f}, build {:.1f}, charts {:.1f}, sky {:.1f}, sun {:.1f}, lamps {:.1f}, photons "
                     "{:.1f}, gather {:.1f}, finish "
@@ -135,6 +153,11 @@ int run(const CommonOptions& common, const Options& options) {
     say(common, fmt::format("Look at it: skybake view {}", options.output.string()));
     if (common.wants_json) {
         nlohmann::json object = to_json(report);
+        if (report.leaks) {
+            const LeakReport& l = *report.leaks;
+            object["leaks"] = {
+                {"texels", l.texels}, {"area_m2", l.area_m2}, {"lumen", l.lumen}, {"worst_lx", l.worst.leak_lx}};
+        }
         object["findings"] = to_json(result.findings);
         object["output"] = options.output.string();
         print_json(object);
@@ -177,6 +200,7 @@ nlohmann::json to_json(const BakeReport& report) {
             {"lamps", report.lamps},
             {"lamps_refined_fraction", report.lamps_refined_fraction},
             {"indirect_evaluated_fraction", report.indirect_evaluated_fraction},
+            {"indirect_lx", {{"mean", report.indirect.mean_lx}, {"standard_error", report.indirect.error_lx}}},
             {"photons_stored", p.stored},
             {"photon_lumen",
              {{"emitted", p.emitted}, {"absorbed", p.absorbed}, {"escaped", p.escaped}, {"at_limit", p.at_limit}}},
@@ -204,6 +228,8 @@ void add_bake(CLI::App& app, Program& program) {
         ->type_name("LX")
         ->check(CLI::Range(0.0, 1e6))
         ->capture_default_str();
+    verb->add_flag("--report-leaks", options->reports_leaks,
+                   "where walls would let photons through without feelers: figures, pictures, a channel of the EXRs");
     verb->add_option("-o,--output", options->output, "folder to write")->required();
     verb->add_option("--texel", options->texel_m, "length of a lightmap texel, metres")
         ->capture_default_str()

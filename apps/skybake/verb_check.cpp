@@ -10,6 +10,8 @@
 #include "base/error.h"
 #include "city/finding_codes.h"
 #include "city_options.h"
+#include "io/cityjson/place_pictures.h"
+#include "io/cityjson/write_city_json.h"
 #include "program.h"
 
 namespace skybake::cli {
@@ -18,6 +20,8 @@ namespace {
 struct CheckOptions {
     CityOptions city;
     bool wants_codes = false;
+    bool wants_repair = false;
+    std::filesystem::path output;  // of the repaired city
 };
 
 /// What the report counts.
@@ -176,6 +180,12 @@ int print_codes(const CommonOptions& common) {
     return kDone;
 }
 
+void write_repaired(LoadedCity& loaded, const std::filesystem::path& output) {
+    to_named_system(loaded.city, loaded.georeference);
+    io::place_pictures(loaded.city, output);
+    io::write_city_json(loaded.city, output);
+}
+
 int run_check(const CheckOptions& options, const CommonOptions& common) {
     if (options.wants_codes) return print_codes(common);
     LoadedCity loaded;
@@ -184,6 +194,7 @@ int run_check(const CheckOptions& options, const CommonOptions& common) {
         loaded = load_city(options.city.files, options.city.load_options(), progress);
     }
     const Figures figures = count(loaded.city);
+    if (options.wants_repair) write_repaired(loaded, options.output);
     if (common.wants_json) {
         print_json(report_json(loaded, figures));
     } else {
@@ -199,13 +210,19 @@ void add_check(CLI::App& app, Program& program) {
     CLI::App* verb = add_verb(app, program, "check", "Read a city and report what is in it and what is wrong with it.",
                               "  skybake check city.city.json\n"
                               "  skybake check tile1.city.jsonl tile2.city.jsonl --lod 1.3 --json\n"
+                              "  skybake check city.gml --repair -o city.city.json\n"
                               "  skybake check --codes",
                               [options, &program] {
+                                  if (options->wants_repair == options->output.empty())
+                                      throw InputError("--repair and -o FILE belong together.");
                                   if (!options->wants_codes && options->city.files.empty())
                                       throw InputError("check needs the name of a city file: skybake check CITY…");
                                   return run_check(*options, program.common);
                               });
     add_city_options(verb, options->city, false);
+    verb->add_flag("--repair", options->wants_repair, "write the repaired city as CityJSON 2.0; pictures are copied");
+    verb->add_option("-o,--output", options->output,
+                     "where the repaired city goes (.city.json, or .jsonl for a sequence)");
     verb->add_flag("--codes", options->wants_codes, "list all findings by code, with remedies");
 }
 

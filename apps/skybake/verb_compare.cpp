@@ -41,7 +41,7 @@ nlohmann::json to_json(const io::PartDeviations& d) {
     json["texels"] = d.total.texels;
     json["texels_off_by_10_percent"] = d.texels_off;
     json["share_off_by_10_percent"] = share_off(d);
-    json["parts"] = {{"sun", to_json(d.sun)}, {"sky", to_json(d.sky)}};
+    json["parts"] = {{"sun", to_json(d.sun)}, {"sky", to_json(d.sky)}, {"indirect", to_json(d.indirect)}};
     return json;
 }
 
@@ -87,6 +87,8 @@ void print_table(const io::BakeComparison& comparison) {
     print_row("all", comparison.all.total);
     print_row("  sun", comparison.all.sun);
     print_row("  sky", comparison.all.sky);
+    if (comparison.all.indirect.mean > 0.0 || comparison.all.indirect.max_abs > 0.0)
+        print_row("  reflected", comparison.all.indirect);
     fmt::print("{} texels; {} ({:.4f} %) are off by more than 10 % of their instant's mean.\n",
                comparison.all.total.texels, comparison.all.texels_off, 100.0 * share_off(comparison.all));
     if (comparison.buried_in_one > 0)
@@ -143,7 +145,8 @@ void add_compare(CLI::App& app, Program& program) {
         app, program, "compare",
         "How far bake A is from the reference bake B of the same atlas: RMSE, bias and maximum of the illuminance in "
         "lx, over\n"
-        "all texels that belong to a chart, in total and for sun and sky; instants are compared in their order.",
+        "all texels that belong to a chart, in total and for sun, sky and reflected light; instants are compared in "
+        "their order.",
         "  skybake compare coarse/ reference/\n"
         "  skybake compare coarse/ reference/ --json --max-rmse 100\n"
         "  skybake compare coarse/ reference/ -o differences/ --range 2000",

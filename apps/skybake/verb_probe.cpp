@@ -91,8 +91,8 @@ int run(const CommonOptions& common, const Options& options) {
         reflected = indirect_by_photons(receivers, sources, scene, rays, settings, progress, bounces);
     }
     if (indirect == Indirect::reference)
-        reflected =
-            trace_indirect(receivers, sources, scene, rays, path_options_of(options.bounce, common.seed), progress);
+        reflected = PathReference(sources, scene, rays, path_options_of(options.bounce, common.seed))
+                        .light(receivers, progress);
     std::vector<io::ProbeLight> rows;
     for (std::size_t i = 0; i < light.size(); ++i) {
         const PointLight& point = light[i];

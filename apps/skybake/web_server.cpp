@@ -3,11 +3,15 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <httplib.h>
+#include <libdeflate.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <map>
+#include <memory>
+#include <mutex>
 #include <string_view>
 #include <utility>
 
@@ -53,7 +57,114 @@ void answer_text(httplib::Response& response, int status, const std::string& tex
     response.set_content(text + "\n", "text/plain; charset=utf-8");
 }
 
-void answer_file(httplib::Response& response, const fs::path& path) {
+void set_common_headers(httplib::Response& response) {
+    response.set_header("Cache-Control", "no-cache");  // the same folder may be baked again
+    response.set_header("X-Content-Type-Options", "nosniff");
+}
+
+using Bytes = std::vector<std::uint8_t>;
+
+/// Whether the browser takes gzip (RFC 9110, section 12.5.3): named, or meant by `*`, and not with weight 0.
+bool accepts_gzip(std::string_view header) {
+    bool is_accepted = false;
+    while (!header.empty()) {
+        const std::string_view entry = header.substr(0, header.find(','));
+        header.remove_prefix(std::min(entry.size() + 1, header.size()));
+        const std::string_view coding = entry.substr(0, entry.find(';'));
+        const std::size_t begin = coding.find_first_not_of(" \t");
+        const std::size_t end = coding.find_last_not_of(" \t");
+        if (begin == std::string_view::npos) continue;
+        const std::string_view name = coding.substr(begin, end - begin + 1);
+        const std::size_t weight = entry.find("q=");
+        const bool is_refused =
+            weight != std::string_view::npos && entry.find_first_not_of("0. \t", weight + 2) == std::string_view::npos;
+        if (name == "gzip") return !is_refused;
+        if (name == "*") is_accepted = !is_refused;
+    }
+    return is_accepted;
+}
+
+/// Files that gzip makes smaller; pictures are packed already.
+bool is_compressible(const fs::path& path) {
+    static constexpr std::array<std::string_view, 10> kEndings{".html", ".js",  ".css", ".json", ".txt",
+                                                               ".csv",  ".svg", ".glb", ".bin",  ".wasm"};
+    return std::find(kEndings.begin(), kEndings.end(), path.extension().string()) != kEndings.end();
+}
+
+/// Gzipped files, kept as long as the file stays as it was.
+class GzipCache {
+  public:
+    /// Null when the file is too large to be held, cannot be read, or does not become smaller.
+    std::shared_ptr<const Bytes> packed(const fs::path& path) {
+        std::error_code error;
+        const std::uintmax_t size = fs::file_size(path, error);
+        const auto time = error ? fs::file_time_type() : fs::last_write_time(path, error);
+        if (error || size < kSmallest || size > kLargest) return nullptr;
+        const std::lock_guard lock(mutex_);
+        const auto found = entries_.find(path.string());
+        if (found != entries_.end() && found->second.size == size && found->second.time == time)
+            return found->second.bytes;
+        if (held_ > kLargest) {
+            entries_.clear();
+            held_ = 0;
+        }
+        const std::shared_ptr<const Bytes> bytes = gzipped(path, static_cast<std::size_t>(size));
+        if (bytes) held_ += bytes->size();
+        entries_[path.string()] = {size, time, bytes};
+        return bytes;
+    }
+
+  private:
+    static constexpr std::uintmax_t kSmallest = 256;  // a header would eat the gain
+    static constexpr std::uintmax_t kLargest = std::uintmax_t{1} << 28;
+    static constexpr int kLevel = 3;  // some 100 MB a second
+
+    static std::shared_ptr<const Bytes> gzipped(const fs::path& path, std::size_t size) {
+        const OpenFile file(path);
+        Bytes raw(size);
+        for (std::size_t at = 0; at < size;) {
+            const std::size_t count =
+                file.is_open() ? file.read_at(at, reinterpret_cast<char*>(&raw[at]), size - at) : 0;
+            if (count == 0) return nullptr;
+            at += count;
+        }
+        const std::unique_ptr<libdeflate_compressor, void (*)(libdeflate_compressor*)> compressor(
+            libdeflate_alloc_compressor(kLevel), libdeflate_free_compressor);
+        if (!compressor) return nullptr;
+        Bytes packed(size);
+        packed.resize(libdeflate_gzip_compress(compressor.get(), raw.data(), size, packed.data(), packed.size()));
+        if (packed.empty()) return nullptr;  // it would not be smaller
+        packed.shrink_to_fit();
+        return std::make_shared<const Bytes>(std::move(packed));
+    }
+
+    struct Entry {
+        std::uintmax_t size = 0;
+        fs::file_time_type time;
+        std::shared_ptr<const Bytes> bytes;
+    };
+    std::mutex mutex_;
+    std::map<std::string, Entry> entries_;
+    std::uintmax_t held_ = 0;  // bytes
+};
+
+void answer_file(const httplib::Request& request, httplib::Response& response, const fs::path& path, GzipCache& cache) {
+    if (is_compressible(path)) {
+        response.set_header("Vary", "Accept-Encoding");
+        // Ranges count bytes of the plain file.
+        if (request.ranges.empty() && accepts_gzip(request.get_header_value("Accept-Encoding"))) {
+            if (const std::shared_ptr<const Bytes> packed = cache.packed(path)) {
+                set_common_headers(response);
+                response.set_header("Content-Encoding", "gzip");
+                response.set_content_provider(
+                    packed->size(), mime_type(path),
+                    [packed](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
+                        return sink.write(reinterpret_cast<const char*>(packed->data()) + offset, length);
+                    });
+                return;
+            }
+        }
+    }
     const auto file = std::make_shared<OpenFile>(path);
     std::error_code error;
     const std::uintmax_t size = fs::file_size(path, error);
@@ -61,8 +172,7 @@ void answer_file(httplib::Response& response, const fs::path& path) {
         answer_text(response, 404, "This file cannot be read.");
         return;
     }
-    response.set_header("Cache-Control", "no-cache");  // the same folder may be baked again
-    response.set_header("X-Content-Type-Options", "nosniff");
+    set_common_headers(response);
     const std::string type = mime_type(path);
     if (size == 0) {
         response.set_content("", type);
@@ -123,6 +233,7 @@ std::string mime_type(const fs::path& file) {
 
 struct WebServer::State {
     std::vector<fs::path> roots;
+    GzipCache packed;
     httplib::Server server;
 };
 
@@ -143,7 +254,7 @@ WebServer::WebServer(std::vector<fs::path> roots) : state_(std::make_unique<Stat
     server.Get(".*", [this](const httplib::Request& request, httplib::Response& response) {
         for (const fs::path& root : state_->roots) {
             if (const std::optional<fs::path> file = file_below(root, request.path)) {
-                answer_file(response, *file);
+                answer_file(request, response, *file, state_->packed);
                 return;
             }
         }

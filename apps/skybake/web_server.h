@@ -22,8 +22,9 @@ std::string mime_type(const std::filesystem::path& file);
 
 /// Serves the files of the first root that has them, to this computer only: it listens on 127.0.0.1 and refuses
 /// requests that were made in another host's name (a foreign page cannot read a bake by rebinding its own name to
-/// 127.0.0.1). Ranges are answered, nothing can be written. bind() first, then run() in a thread of its own; stop() may
-/// be called from any thread.
+/// 127.0.0.1). Ranges are answered, text and
+/// geometry are gzipped for who asks, nothing can be written. bind() first, then run() in a thread of its own; stop()
+/// may be called from any thread.
 class WebServer {
   public:
     explicit WebServer(std::vector<std::filesystem::path> roots);

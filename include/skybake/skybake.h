@@ -62,7 +62,13 @@ struct Bake {
     double texel_m = 0.5;
     int sky_samples = 1024;
     std::string sampling = "projected";  // or "hierarchical" or "full", as --sampling
-    double tolerance = 0.01;             // of hierarchical sampling, relative
+    double tolerance = 0.01;             // of the hierarchies, relative
+    std::string indirect = "none";       // reflected light: "photons" or "reference" (unbiased paths, slow)
+    int bounces = 8;                     // reflections at most
+    std::optional<std::uint64_t>
+        photons;       // for each instant; default: 20 a square metre of surface, at least 1 million
+    int paths = 1024;  // per texel, of the reference
+    std::uint64_t seed = 0;
     /// Called now and then with the stage's name and the share done, 0…1, from any thread; return false to stop.
     std::function<bool(const std::string& stage, double share)> progress;
 };
@@ -71,12 +77,14 @@ struct BakeResult {
     std::uint64_t buildings = 0, triangles = 0, charts = 0, pages = 0, texels = 0, sky_rays = 0;
     double seconds = 0.0;
     double evaluated_fraction = 1.0;
+    double indirect_mean_lx = 0.0;   // reflected light over all texels; 0 without
+    double indirect_error_lx = 0.0;  // root mean square of its standard error; 0 without the reference
     std::vector<Note> findings;
 };
 
-/// Reads the city, computes sun and sky, and writes the folder of the bake (docs/formats.md; the walkthrough's own
-/// files are added by the program `skybake`). Throws Error for unusable input, and when `progress` returned false. Two
-/// bakes in one process do not meet.
+/// Reads the city, computes sun, sky and what is reflected, and writes the folder of the bake (docs/formats.md; the
+/// walkthrough's own files are added by the program `skybake`). Throws Error for unusable input, and when `progress`
+/// returned false. Two bakes in one process do not meet.
 SKYBAKE_API BakeResult bake(const Bake& settings);
 
 }  // namespace skybake::api

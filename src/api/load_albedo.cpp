@@ -67,7 +67,7 @@ void load_albedo_images(Scene& scene, FindingLog& findings, Progress& progress) 
     tbb::parallel_for(std::size_t{0}, used.size(), [&](std::size_t i) {
         if (progress.stop_requested()) throw Interrupted();
         try {
-            scene.albedo_images[used[i]] = albedo_image(io::read_image(scene.textures[used[i]].path));
+            scene.albedo_images[used[i]] = albedo_image(io::read_image(scene.textures[used[i]]));
         } catch (const InputError& error) {
             faults[i] = error.what();
         }

@@ -8,12 +8,14 @@
 #include <string>
 #include <vector>
 
+#include "base/box.h"
 #include "base/finding.h"
 #include "base/progress.h"
 #include "city/city_model.h"
 #include "city/georeference.h"
 #include "city/ground.h"
 #include "city/repair.h"
+#include "io/assembly/city_assembly.h"
 
 namespace skybake {
 
@@ -21,6 +23,12 @@ struct LoadOptions {
     std::optional<std::string> lod;  // "2.2"; without one the highest of each object
     GroundChoice ground = GroundChoice::none;
     double ground_margin_m = 30.0;
+    std::optional<std::string> crs{};     // instead of what the files name
+    io::MeshPlacement placement{};        // of files without a place (OBJ, glTF)
+    std::optional<Box2d> bbox{};          // in the coordinates of the files; without one all of the city
+    std::vector<std::string> excluded{};  // ids of objects that are left out, with all below them
+    io::RasterOptions raster{};
+    io::FootprintOptions footprints{};
 };
 
 struct InputFile {
@@ -39,9 +47,10 @@ struct LoadedCity {
     double read_seconds = 0.0;  // all of it: reading, repair, projection, ground
 };
 
-/// Reads the files as one city, repairs it, brings it into metres and adds ground when asked. A city without any
-/// surface is finding SB117 and comes back empty. Throws InputError when a file is unusable as a whole, Interrupted
-/// when `progress` wants to stop.
+/// Reads the files as one city in the reference system of the first that names one, each object once, repairs it,
+/// brings it into metres and adds ground when asked. Footprints without heights of their own stand on the terrain of
+/// the files. A city without any surface is finding SB117 and comes back empty. Throws InputError when a file is
+/// unusable as a whole or an excluded object does not exist, Interrupted when `progress` wants to stop.
 LoadedCity load_city(std::span<const std::filesystem::path> files, const LoadOptions& options, Progress& progress);
 
 }  // namespace skybake

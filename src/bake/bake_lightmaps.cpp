@@ -15,6 +15,7 @@
 #include "atlas/chart_samples.h"
 #include "bake/finish_chart.h"
 #include "bake/indirect_chart.h"
+#include "bake/indirect_report.h"
 #include "bake/projection_tile.h"
 #include "bake/shadow_projection.h"
 #include "bake/sky_tile.h"
@@ -109,37 +110,46 @@ class Baker {
             page.sky_view_factor.assign(count, 0.0f);
             page.lamps.assign(options.lamps.empty() ? 0 : count, Rgb(0.0f));
         }
+        const bool has_paths = options.bounces && std::holds_alternative<PathOptions>(*options.bounces);
         for (const Daylight& daylight : instants) {
             BakedInstant& instant = lightmaps_.instants.emplace_back(BakedInstant{daylight, {}});
             for (const AtlasPage& page : atlas.pages) {
                 instant.pages.push_back({std::vector<Rgb>(texels_of(page), Rgb(0.0f)),
                                          std::vector<float>(texels_of(page), 0.0f),
-                                         std::vector<Rgb>(options.bounces ? texels_of(page) : 0, Rgb(0.0f))});
+                                         std::vector<Rgb>(options.bounces ? texels_of(page) : 0, Rgb(0.0f)),
+                                         std::vector<float>(has_paths ? texels_of(page) : 0, 0.0f),
+                                         std::vector<float>(options.keeps_leaks ? texels_of(page) : 0, 0.0f)});
             }
         }
     }
 
     Lightmaps bake(BakeReport& report) {
-        if (options_.bounces) trace_bounces(report);
         const auto begin = Clock::now();
         progress_.begin("sun and sky", atlas_.texel_count());
         const std::vector<ChartGroup> groups = group_by_normal(atlas_);
         tbb::parallel_for(
             std::size_t{0}, groups.size(), [&](std::size_t g) { light_group(groups[g]); }, tbb::simple_partitioner());
         const double wall = std::chrono::duration<double>(Clock::now() - begin).count();
+        if (options_.bounces) {
+            for (std::size_t k = 0; k < lightmaps_.instants.size(); ++k) light_bounces(k, report);
+        }
         const auto join_begin = Clock::now();
         join_seams(atlas_, lightmaps_);
         light_hidden_edges(atlas_, lightmaps_);
+        if (options_.bounces) report.indirect = indirect_noise(lightmaps_);
+        if (options_.keeps_leaks) {
+            const int nearest = std::get<BouncePhotons>(*options_.bounces).gather.nearest;
+            report.leaks = find_leaks(atlas_, lightmaps_, nearest, options_.tolerance);
+        }
         const double join = std::chrono::duration<double>(Clock::now() - join_begin).count();
 
         // The stages run interleaved on all threads: each gets its share of the wall clock.
-        const double busy = sky_clock_.seconds() + sun_clock_.seconds() + lamp_clock_.seconds() +
-                            gather_clock_.seconds() + finish_clock_.seconds();
+        const double busy =
+            sky_clock_.seconds() + sun_clock_.seconds() + lamp_clock_.seconds() + finish_clock_.seconds();
         const double scale = busy > 0.0 ? wall / busy : 0.0;
         report.seconds.sky = scale * sky_clock_.seconds();
         report.seconds.sun = scale * sun_clock_.seconds();
         report.seconds.lamps = scale * lamp_clock_.seconds();
-        report.seconds.gather = scale * gather_clock_.seconds();
         report.seconds.finish = scale * finish_clock_.seconds() + join;
         report.rays.sky = statistics_.rays;
         report.rays.sun = sun_rays_;
@@ -171,23 +181,59 @@ class Baker {
         return static_cast<std::size_t>(page.width) * static_cast<std::size_t>(page.height);
     }
 
-    void trace_bounces(BakeReport& report) {
-        const auto begin = Clock::now();
-        const double area = surface_area(scene_);
-        maps_.reserve(lightmaps_.instants.size());  // the gatherers point into it
-        for (const BakedInstant& instant : lightmaps_.instants) {
-            PhotonRun run =
-                trace_photons({instant.daylight, options_.lamps}, scene_, rays_, options_.bounces->photons, progress_);
-            report.rays.photon += run.ledger.rays;
-            report.photons.emitted += run.ledger.emitted;
-            report.photons.absorbed += run.ledger.absorbed;
-            report.photons.escaped += run.ledger.escaped;
-            report.photons.at_limit += run.ledger.at_limit;
-            report.photons.stored += run.photons.size();
-            maps_.emplace_back(std::move(run.photons));
-            gatherers_.emplace_back(maps_.back(), rays_, area, options_.bounces->gather);
+    /// Reflected light of one instant on all charts, which have their direct light already.
+    void light_bounces(std::size_t instant, BakeReport& report) {
+        const LightSources sources{lightmaps_.instants[instant].daylight, options_.lamps};
+        if (const PathOptions* paths = std::get_if<PathOptions>(&*options_.bounces)) {
+            gather(instant, PathReference(sources, scene_, rays_, *paths), report);
+            return;
         }
-        report.seconds.photons = std::chrono::duration<double>(Clock::now() - begin).count();
+        const BouncePhotons& bounces = std::get<BouncePhotons>(*options_.bounces);
+        const auto begin = Clock::now();
+        PhotonRun run = trace_photons(sources, scene_, rays_, bounces.photons, progress_);
+        report.rays.photon += run.ledger.rays;
+        report.photons.emitted += run.ledger.emitted;
+        report.photons.absorbed += run.ledger.absorbed;
+        report.photons.escaped += run.ledger.escaped;
+        report.photons.at_limit += run.ledger.at_limit;
+        report.photons.stored += run.photons.size();
+        const PhotonMap map(std::move(run.photons));
+        report.seconds.photons += std::chrono::duration<double>(Clock::now() - begin).count();
+        gather(instant, PhotonGatherer(map, rays_, surface_area(scene_), bounces.gather), report);
+    }
+
+    void gather(std::size_t instant, const IndirectEstimator& estimator, BakeReport& report) {
+        const auto begin = Clock::now();
+        progress_.begin("reflected light", atlas_.texel_count());
+        tbb::parallel_for(
+            std::size_t{0}, atlas_.charts.size(),
+            [&](std::size_t c) { gather_chart(atlas_.charts[c], instant, estimator); }, tbb::simple_partitioner());
+        report.seconds.gather += std::chrono::duration<double>(Clock::now() - begin).count();
+    }
+
+    void gather_chart(const Chart& chart, std::size_t instant, const IndirectEstimator& estimator) {
+        const ChartSamples samples = sample_chart(scene_, chart);
+        const std::size_t page = chart.page.index();
+        const std::size_t width = static_cast<std::size_t>(lightmaps_.pages[page].width);
+        std::vector<float> direct_lx(samples.position.size());
+        for (int row = 0; row < chart.size.y; ++row) {
+            for (int column = 0; column < chart.size.x; ++column) {
+                const std::size_t p = static_cast<std::size_t>(chart.position.y + row) * width +
+                                      static_cast<std::size_t>(chart.position.x + column);
+                // The layer's reflected light is still 0.
+                direct_lx[samples.index(column, row)] = luminance(total_irradiance(lightmaps_, instant, page, p));
+            }
+        }
+        const float tolerance = options_.sampling == SkySampling::full ? 0.0f : options_.tolerance;
+        IndirectStatistics statistics;
+        const std::vector<IndirectLight> light =
+            light_indirect(scene_, chart, samples, estimator, direct_lx, tolerance, progress_, statistics);
+        write_indirect(chart, light, lightmaps_.pages[page], lightmaps_.instants[instant].pages[page]);
+        progress_.advance(samples.position.size());
+        const std::lock_guard lock(statistics_mutex_);
+        indirect_statistics_.evaluated += statistics.evaluated;
+        indirect_statistics_.texels += statistics.texels;
+        indirect_statistics_.rays += statistics.rays;
     }
 
     void light_group(const ChartGroup& group) {
@@ -242,7 +288,6 @@ class Baker {
             sun_rays_ += ray_count;
         }
         if (!options_.lamps.empty()) lamp_clock_.measure([&] { light_by_lamps(chart, samples, light); });
-        if (options_.bounces) gather_clock_.measure([&] { gather_chart(chart, samples, light); });
         finish_clock_.measure([&] {
             std::uint64_t ray_count = 0;
             const std::vector<std::uint8_t> buried =
@@ -260,24 +305,6 @@ class Baker {
         light.lamps = light_lamps(scene_, chart, samples, rays_, lamps_, options_.lamp_sampling, statistics);
         const std::lock_guard lock(statistics_mutex_);
         lamp_statistics_.add(statistics);
-    }
-
-    void gather_chart(const Chart& chart, const ChartSamples& samples, ChartLight& light) {
-        const float tolerance = options_.sampling == SkySampling::full ? 0.0f : options_.tolerance;
-        std::vector<float> direct_lx(samples.position.size());
-        for (std::size_t k = 0; k < lightmaps_.instants.size(); ++k) {
-            const Rgb beam = lightmaps_.instants[k].daylight.sun.normal_illuminance;
-            for (std::size_t i = 0; i < direct_lx.size(); ++i)
-                direct_lx[i] = luminance(light.sky[k][i] + light.sun_cosine[k][i] * beam) +
-                               (light.lamps.empty() ? 0.0f : luminance(light.lamps[i]));
-            IndirectStatistics statistics;
-            light.indirect.push_back(
-                light_indirect(scene_, chart, samples, gatherers_[k], direct_lx, tolerance, statistics));
-            const std::lock_guard lock(statistics_mutex_);
-            indirect_statistics_.evaluated += statistics.evaluated;
-            indirect_statistics_.texels += statistics.texels;
-            indirect_statistics_.rays += statistics.rays;
-        }
     }
 
     int tiles_in(int size) const {
@@ -389,11 +416,9 @@ class Baker {
     Lightmaps lightmaps_;
     std::mutex statistics_mutex_;
     SkyTileStatistics statistics_;
-    std::vector<PhotonMap> maps_;            // [instant]; none without bounces
-    std::vector<PhotonGatherer> gatherers_;  // [instant]
     IndirectStatistics indirect_statistics_;
     LampStatistics lamp_statistics_;
-    StageClock sky_clock_, sun_clock_, lamp_clock_, gather_clock_, finish_clock_;
+    StageClock sky_clock_, sun_clock_, lamp_clock_, finish_clock_;
     std::atomic<std::uint64_t> sun_rays_{0}, feature_rays_{0}, buried_rays_{0};
 };
 

@@ -1,7 +1,9 @@
 // The figures of one bake: what `bake --json` prints and the manifest keeps.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 
 namespace skybake {
 
@@ -25,6 +27,25 @@ struct PhotonBalance {
     std::uint64_t stored = 0;  // photons in the maps
 };
 
+/// lx; 0 where nothing was asked for.
+struct IndirectNoise {
+    double mean_lx = 0;   // of the reflected light over all texels
+    double error_lx = 0;  // root mean square of its standard error
+};
+
+/// Texels that would be lit through walls, all instants together.
+struct LeakReport {
+    std::uint64_t texels = 0;
+    double area_m2 = 0;
+    double lumen = 0;             // the light kept out
+    double picture_range_lx = 0;  // of the pictures' full colour: a tenth of the mean of all light
+    struct Place {
+        std::size_t instant = 0, page = 0, column = 0, row = 0;
+        double leak_lx = 0;   // kept out
+        double total_lx = 0;  // what is left there
+    } worst;
+};
+
 struct BakeReport {
     std::uint64_t buildings = 0, triangles = 0, charts = 0, pages = 0, texels = 0;
     double texel_m = 0.5;
@@ -33,7 +54,9 @@ struct BakeReport {
     double rays_per_second = 0.0;              // skylight rays over the seconds of the sky stage
     double evaluated_fraction = 1.0;           // (texel, direction) pairs really traced / all
     double predicted_rmse_over_mean = 0.0;     // of the hierarchy against full sampling, from the pilot directions
-    double indirect_evaluated_fraction = 0.0;  // texels gathered from photons / covered texels; 0 without photons
+    double indirect_evaluated_fraction = 0.0;  // texels whose reflected light was computed / covered texels; 0 without
+    IndirectNoise indirect;
+    std::optional<LeakReport> leaks;
     PhotonBalance photons;
     std::uint64_t lamps = 0;
     double lamps_refined_fraction = 0.0;  // (texel, lamp) pairs sampled by 16 rays / all that a lamp can reach

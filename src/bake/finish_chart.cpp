@@ -25,6 +25,62 @@ void for_neighbors(int column, int row, int width, int height, const Body& body)
     }
 }
 
+/// The chart's rectangle with its gutter, up to the next block of four.
+struct ChartPatch {
+    ChartPatch(const Chart& chart, const LightmapPage& page)
+        : first(chart.position - kGutter),
+          page_width(static_cast<std::size_t>(page.width)),
+          width(std::min((chart.size.x + 2 * kGutter + 3) / 4 * 4, page.width - first.x)),
+          height(std::min((chart.size.y + 2 * kGutter + 3) / 4 * 4, page.height - first.y)),
+          is_filled(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0) {}
+
+    std::size_t page_index(int column, int row) const {
+        return static_cast<std::size_t>(first.y + row) * page_width + static_cast<std::size_t>(first.x + column);
+    }
+    std::size_t index(int column, int row) const {
+        return static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column);
+    }
+
+    /// Ring by ring, calls average(p, sources) for each texel p of the page that is not filled yet and has neighbours
+    /// `sources` that are.
+    template <typename Average>
+    void fill_outwards(const Average& average) {
+        std::vector<std::size_t> sources;
+        for (int ring = 0; ring < kFillRings; ++ring) {
+            std::vector<std::uint8_t> next = is_filled;
+            for (int row = 0; row < height; ++row) {
+                for (int column = 0; column < width; ++column) {
+                    if (is_filled[index(column, row)]) continue;
+                    sources.clear();
+                    for_neighbors(column, row, width, height, [&](std::size_t j) {
+                        if (is_filled[j])
+                            sources.push_back(page_index(static_cast<int>(j % static_cast<std::size_t>(width)),
+                                                         static_cast<int>(j / static_cast<std::size_t>(width))));
+                    });
+                    if (sources.empty()) continue;
+                    average(page_index(column, row), std::span<const std::size_t>(sources));
+                    next[index(column, row)] = 1;
+                }
+            }
+            if (next == is_filled) break;
+            is_filled = std::move(next);
+        }
+    }
+
+    Vec2i first;  // on the page
+    std::size_t page_width;
+    int width, height;
+    std::vector<std::uint8_t> is_filled;
+};
+
+/// The mean of the layer's values at `sources`.
+template <typename T>
+T mean_at(const std::vector<T>& values, std::span<const std::size_t> sources) {
+    T sum(0.0f);
+    for (const std::size_t source : sources) sum += values[source];
+    return (1.0f / static_cast<float>(sources.size())) * sum;
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> find_buried(const Scene& scene, const Chart& chart, const ChartSamples& samples,
@@ -67,21 +123,12 @@ std::vector<std::uint8_t> find_buried(const Scene& scene, const Chart& chart, co
 
 void write_chart(ChartId id, const Chart& chart, const ChartSamples& samples, std::span<const std::uint8_t> buried,
                  const ChartLight& light, LightmapPage& page, std::span<LightmapLayer* const> layers) {
-    // The chart's rectangle with its gutter, up to the next block of four.
-    const int width = std::min((chart.size.x + 2 * kGutter + 3) / 4 * 4, page.width - chart.position.x + kGutter);
-    const int height = std::min((chart.size.y + 2 * kGutter + 3) / 4 * 4, page.height - chart.position.y + kGutter);
-    const std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-    const auto page_index = [&](int column, int row) {
-        return static_cast<std::size_t>(chart.position.y - kGutter + row) * static_cast<std::size_t>(page.width) +
-               static_cast<std::size_t>(chart.position.x - kGutter + column);
-    };
-
-    std::vector<std::uint8_t> is_filled(count, 0);
+    ChartPatch patch(chart, page);
     for (int row = 0; row < chart.size.y; ++row) {
         for (int column = 0; column < chart.size.x; ++column) {
             const std::size_t i = samples.index(column, row);
             if (samples.cover[i] == ChartSamples::Cover::none) continue;
-            const std::size_t p = page_index(column + kGutter, row + kGutter);
+            const std::size_t p = patch.page_index(column + kGutter, row + kGutter);
             page.chart[p] = id;
             page.state[p] = buried[i] ? TexelState::buried : TexelState::chart;
             page.sky_view_factor[p] = light.sky_view_factor[i];
@@ -89,64 +136,40 @@ void write_chart(ChartId id, const Chart& chart, const ChartSamples& samples, st
             for (std::size_t k = 0; k < layers.size(); ++k) {
                 layers[k]->sky[p] = light.sky[k][i];
                 layers[k]->sun_cosine[p] = light.sun_cosine[k][i];
-                if (!light.indirect.empty()) layers[k]->indirect[p] = light.indirect[k][i];
             }
-            is_filled[static_cast<std::size_t>(row + kGutter) * static_cast<std::size_t>(width) +
-                      static_cast<std::size_t>(column + kGutter)] = !buried[i];
+            patch.is_filled[patch.index(column + kGutter, row + kGutter)] = !buried[i];
         }
     }
+    patch.fill_outwards([&](std::size_t p, std::span<const std::size_t> sources) {
+        page.chart[p] = id;
+        if (page.state[p] == TexelState::empty) page.state[p] = TexelState::gutter;
+        page.sky_view_factor[p] = mean_at(page.sky_view_factor, sources);
+        if (!page.lamps.empty()) page.lamps[p] = mean_at(page.lamps, sources);
+        for (LightmapLayer* layer : layers) {
+            layer->sky[p] = mean_at(layer->sky, sources);
+            layer->sun_cosine[p] = mean_at(layer->sun_cosine, sources);
+        }
+    });
+}
 
-    std::vector<std::uint8_t> next;
-    for (int ring = 0; ring < kFillRings; ++ring) {
-        next = is_filled;
-        for (int row = 0; row < height; ++row) {
-            for (int column = 0; column < width; ++column) {
-                const std::size_t i =
-                    static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column);
-                if (is_filled[i]) continue;
-                int neighbors = 0;
-                float view_factor = 0.0f;
-                std::vector<std::size_t> sources;
-                sources.reserve(8);
-                for_neighbors(column, row, width, height, [&](std::size_t j) {
-                    if (!is_filled[j]) return;
-                    const std::size_t p = page_index(static_cast<int>(j % static_cast<std::size_t>(width)),
-                                                     static_cast<int>(j / static_cast<std::size_t>(width)));
-                    sources.push_back(p);
-                    view_factor += page.sky_view_factor[p];
-                    ++neighbors;
-                });
-                if (neighbors == 0) continue;
-                const float share = 1.0f / static_cast<float>(neighbors);
-                const std::size_t p = page_index(column, row);
-                page.chart[p] = id;
-                if (page.state[p] == TexelState::empty) page.state[p] = TexelState::gutter;
-                page.sky_view_factor[p] = share * view_factor;
-                if (!page.lamps.empty()) {
-                    Rgb lamps(0.0f);
-                    for (const std::size_t source : sources) lamps += page.lamps[source];
-                    page.lamps[p] = share * lamps;
-                }
-                for (LightmapLayer* layer : layers) {
-                    Rgb sky(0.0f);
-                    float sun = 0.0f;
-                    for (const std::size_t source : sources) {
-                        sky += layer->sky[source];
-                        sun += layer->sun_cosine[source];
-                    }
-                    layer->sky[p] = share * sky;
-                    layer->sun_cosine[p] = share * sun;
-                    if (layer->indirect.empty()) continue;
-                    Rgb indirect(0.0f);
-                    for (const std::size_t source : sources) indirect += layer->indirect[source];
-                    layer->indirect[p] = share * indirect;
-                }
-                next[i] = 1;
-            }
+void write_indirect(const Chart& chart, std::span<const IndirectLight> light, const LightmapPage& page,
+                    LightmapLayer& layer) {
+    ChartPatch patch(chart, page);
+    for (int row = 0; row < chart.size.y; ++row) {
+        for (int column = 0; column < chart.size.x; ++column) {
+            const std::size_t p = patch.page_index(column + kGutter, row + kGutter);
+            if (page.state[p] != TexelState::chart) continue;
+            const IndirectLight& texel = light[static_cast<std::size_t>(row) * static_cast<std::size_t>(chart.size.x) +
+                                               static_cast<std::size_t>(column)];
+            layer.indirect[p] = texel.irradiance;
+            if (!layer.indirect_error.empty()) layer.indirect_error[p] = texel.standard_error_lx;
+            if (!layer.leak.empty()) layer.leak[p] = texel.leak_lx;
+            patch.is_filled[patch.index(column + kGutter, row + kGutter)] = 1;
         }
-        if (next == is_filled) break;
-        is_filled = next;
     }
+    patch.fill_outwards([&](std::size_t p, std::span<const std::size_t> sources) {
+        layer.indirect[p] = mean_at(layer.indirect, sources);
+    });
 }
 
 void join_seams(const Atlas& atlas, Lightmaps& lightmaps) {

@@ -9,6 +9,7 @@
 #include "atlas/atlas.h"
 #include "atlas/chart_samples.h"
 #include "bake/lightmap.h"
+#include "light/path_reference.h"
 #include "sky/dome_sampling.h"
 #include "trace/ray_scene.h"
 
@@ -19,8 +20,7 @@ struct ChartLight {
     std::vector<std::vector<Rgb>> sky;           // [instant][texel]
     std::vector<std::vector<float>> sun_cosine;  // [instant][texel]
     std::vector<float> sky_view_factor;
-    std::vector<std::vector<Rgb>> indirect;  // [instant][texel]; empty without photons
-    std::vector<Rgb> lamps;                  // [texel]; empty without lamps
+    std::vector<Rgb> lamps;  // [texel]; empty without lamps
 };
 
 /// Which covered texels lie inside or behind another solid: they see next to no sky, and most of what they see are back
@@ -33,6 +33,12 @@ std::vector<std::uint8_t> find_buried(const Scene& scene, const Chart& chart, co
 /// Writes the chart into its page, buried texels and gutter filled from their neighbours.
 void write_chart(ChartId id, const Chart& chart, const ChartSamples& samples, std::span<const std::uint8_t> buried,
                  const ChartLight& light, LightmapPage& page, std::span<LightmapLayer* const> layers);
+
+/// Writes the chart's reflected light into its page, on which write_chart has been: buried texels and gutter are filled
+/// from their neighbours. Of `layer.indirect_error` and `layer.leak` what is not empty is written, at the chart's own
+/// texels.
+void write_indirect(const Chart& chart, std::span<const IndirectLight> light, const LightmapPage& page,
+                    LightmapLayer& layer);
 
 /// Where charts of nearly one plane meet, each one's gutter takes the other's light, so that both show the same along
 /// their edge.

@@ -1,13 +1,14 @@
 #include "bake/indirect_chart.h"
 
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <mutex>
 #include <optional>
+
+#include "base/error.h"
 
 namespace skybake {
 
@@ -22,18 +23,18 @@ constexpr float kCornerSpan = 4.0f;
 /// One cell of the lattice with its border: texels (column, row) to (column + width, row + height) inclusive.
 class IndirectCell {
   public:
-    IndirectCell(const Scene& scene, const Chart& chart, const ChartSamples& samples, const PhotonGatherer& gatherer,
-                 std::span<const float> other_light_lx, float tolerance)
+    IndirectCell(const Scene& scene, const Chart& chart, const ChartSamples& samples,
+                 const IndirectEstimator& estimator, std::span<const float> other_light_lx, float tolerance)
         : scene_(scene),
           chart_(chart),
           samples_(samples),
-          gatherer_(gatherer),
+          estimator_(estimator),
           other_light_lx_(other_light_lx),
           tolerance_(tolerance) {}
 
     /// Fills `light` of the texels that the cell owns: those on its left and upper border, and at the chart's end also
     /// the others.
-    void run(int column, int row, std::vector<Rgb>& light) {
+    void run(int column, int row, std::vector<IndirectLight>& light) {
         column_ = column;
         row_ = row;
         const int width = std::min(kCell, samples_.size.x - 1 - column);
@@ -54,17 +55,25 @@ class IndirectCell {
     IndirectStatistics statistics;
 
   private:
+    using Corners = std::array<IndirectLight, 4>;
+
     static std::size_t place(int x, int y) { return static_cast<std::size_t>(y * (kCell + 1) + x); }
     std::size_t texel(int x, int y) const { return samples_.index(column_ + x, row_ + y); }
     bool is_covered(int x, int y) const { return samples_.cover[texel(x, y)] != ChartSamples::Cover::none; }
 
-    Rgb value(int x, int y) {
-        std::optional<Rgb>& value = values_[place(x, y)];
+    IndirectLight estimate(const ReceiverPoint& point) {
+        if (const PhotonGatherer* photons = std::get_if<PhotonGatherer>(&estimator_))
+            return photons->light(point, found_, statistics.rays);
+        return std::get<PathReference>(estimator_).light(point);
+    }
+
+    IndirectLight value(int x, int y) {
+        std::optional<IndirectLight>& value = values_[place(x, y)];
         if (!value) {
             const std::size_t i = texel(x, y);
             const Vec3f normal =
                 chart_.min_normal_cosine >= 1.0f ? chart_.normal : shading_normal(scene_, chart_, samples_.triangle[i]);
-            value = gatherer_.irradiance(samples_.position[i], normal, found_, statistics.rays);
+            value = estimate({samples_.position[i], normal});
             ++statistics.evaluated;
         }
         return *value;
@@ -80,7 +89,7 @@ class IndirectCell {
             return true;
         }();
         if (is_whole) {
-            const std::array<Rgb, 4> corner{value(x0, y0), value(x1, y0), value(x0, y1), value(x1, y1)};
+            const Corners corner{value(x0, y0), value(x1, y0), value(x0, y1), value(x1, y1)};
             if (x1 - x0 <= 1 && y1 - y0 <= 1) return;
             if (is_smooth(corner, x0, y0, x1, y1)) {
                 interpolate(corner, x0, y0, x1, y1);
@@ -103,33 +112,38 @@ class IndirectCell {
         }
     }
 
-    bool is_smooth(const std::array<Rgb, 4>& corner, int x0, int y0, int x1, int y1) {
-        float lo = luminance(corner[0]), hi = lo, other = 0.0f;
-        for (const Rgb& c : corner) {
-            lo = std::min(lo, luminance(c));
-            hi = std::max(hi, luminance(c));
+    bool is_smooth(const Corners& corner, int x0, int y0, int x1, int y1) {
+        float lo = luminance(corner[0].irradiance), hi = lo, other = 0.0f;
+        for (const IndirectLight& c : corner) {
+            lo = std::min(lo, luminance(c.irradiance));
+            hi = std::max(hi, luminance(c.irradiance));
         }
         for (const auto& [x, y] : {std::pair(x0, y0), std::pair(x1, y0), std::pair(x0, y1), std::pair(x1, y1)})
             other += 0.25f * other_light_lx_[texel(x, y)];
         const float allowed = tolerance_ * (other + 0.5f * (lo + hi));
         if (hi - lo > kCornerSpan * allowed) return false;
         const int xm = (x0 + x1) / 2, ym = (y0 + y1) / 2;
-        const Rgb expected = interpolated(corner, x0, y0, x1, y1, xm, ym);
-        return std::abs(luminance(value(xm, ym)) - luminance(expected)) <= allowed;
+        const IndirectLight expected = interpolated(corner, x0, y0, x1, y1, xm, ym);
+        return std::abs(luminance(value(xm, ym).irradiance) - luminance(expected.irradiance)) <= allowed;
     }
 
-    static Rgb interpolated(const std::array<Rgb, 4>& corner, int x0, int y0, int x1, int y1, int x, int y) {
+    static IndirectLight interpolated(const Corners& corner, int x0, int y0, int x1, int y1, int x, int y) {
         const float fx = x1 > x0 ? static_cast<float>(x - x0) / static_cast<float>(x1 - x0) : 0.0f;
         const float fy = y1 > y0 ? static_cast<float>(y - y0) / static_cast<float>(y1 - y0) : 0.0f;
-        return (1.0f - fy) * ((1.0f - fx) * corner[0] + fx * corner[1]) +
-               fy * ((1.0f - fx) * corner[2] + fx * corner[3]);
+        const auto mix = [&](const auto& of) {
+            return (1.0f - fy) * ((1.0f - fx) * of(corner[0]) + fx * of(corner[1])) +
+                   fy * ((1.0f - fx) * of(corner[2]) + fx * of(corner[3]));
+        };
+        return {mix([](const IndirectLight& light) { return light.irradiance; }),
+                mix([](const IndirectLight& light) { return light.standard_error_lx; }),
+                mix([](const IndirectLight& light) { return light.leak_lx; })};
     }
 
     /// What is known already, from this cell or the one beside it, stays.
-    void interpolate(const std::array<Rgb, 4>& corner, int x0, int y0, int x1, int y1) {
+    void interpolate(const Corners& corner, int x0, int y0, int x1, int y1) {
         for (int y = y0; y <= y1; ++y) {
             for (int x = x0; x <= x1; ++x) {
-                std::optional<Rgb>& value = values_[place(x, y)];
+                std::optional<IndirectLight>& value = values_[place(x, y)];
                 if (!value) value = interpolated(corner, x0, y0, x1, y1, x, y);
             }
         }
@@ -138,34 +152,34 @@ class IndirectCell {
     const Scene& scene_;
     const Chart& chart_;
     const ChartSamples& samples_;
-    const PhotonGatherer& gatherer_;
+    const IndirectEstimator& estimator_;
     std::span<const float> other_light_lx_;
     float tolerance_;
     int column_ = 0, row_ = 0;
-    std::array<std::optional<Rgb>, (kCell + 1) * (kCell + 1)> values_;
+    std::array<std::optional<IndirectLight>, (kCell + 1) * (kCell + 1)> values_;
     std::vector<NearPhoton> found_;
 };
 
 }  // namespace
 
-std::vector<Rgb> light_indirect(const Scene& scene, const Chart& chart, const ChartSamples& samples,
-                                const PhotonGatherer& gatherer, std::span<const float> other_light_lx, float tolerance,
-                                IndirectStatistics& statistics) {
-    std::vector<Rgb> light(samples.position.size(), Rgb(0.0f));
+std::vector<IndirectLight> light_indirect(const Scene& scene, const Chart& chart, const ChartSamples& samples,
+                                          const IndirectEstimator& estimator, std::span<const float> other_light_lx,
+                                          float tolerance, const Progress& progress, IndirectStatistics& statistics) {
+    std::vector<IndirectLight> light(samples.position.size());
     // Each cell owns its left and upper border; a chart of one texel a side is one cell.
     const auto cells = [](int size) { return std::max(1, (size - 1 + kCell - 1) / kCell); };
     const int columns = cells(samples.size.x), rows = cells(samples.size.y);
     std::mutex mutex;
-    // Isolated: a thread that waits here must not begin another chart, whose time would be counted as the gathering's.
-    tbb::this_task_arena::isolate([&] {
-        tbb::parallel_for(0, rows, [&](int row) {
-            IndirectCell cell(scene, chart, samples, gatherer, other_light_lx, tolerance);
-            for (int column = 0; column < columns; ++column) cell.run(column * kCell, row * kCell, light);
-            const std::lock_guard lock(mutex);
-            statistics.evaluated += cell.statistics.evaluated;
-            statistics.texels += cell.statistics.texels;
-            statistics.rays += cell.statistics.rays;
-        });
+    tbb::parallel_for(0, rows, [&](int row) {
+        IndirectCell cell(scene, chart, samples, estimator, other_light_lx, tolerance);
+        for (int column = 0; column < columns; ++column) {
+            if (progress.stop_requested()) throw Interrupted();
+            cell.run(column * kCell, row * kCell, light);
+        }
+        const std::lock_guard lock(mutex);
+        statistics.evaluated += cell.statistics.evaluated;
+        statistics.texels += cell.statistics.texels;
+        statistics.rays += cell.statistics.rays;
     });
     return light;
 }

@@ -33,7 +33,9 @@ struct LightmapLayer {
     std::vector<Rgb> sky;           // skylight
     std::vector<float> sun_cosine;  // sunlit share of the texel × cosine of incidence; × SunBeam::normal_illuminance is
                                     // the sun's light in lx
-    std::vector<Rgb> indirect;  // reflected light; empty when it was not asked for
+    std::vector<Rgb> indirect;          // reflected light; empty when it was not asked for
+    std::vector<float> indirect_error;  // its standard error, lx; empty without the reference
+    std::vector<float> leak;  // what photons beyond the feelers would add, lx; empty when it was not asked for
 };
 
 struct BakedInstant {

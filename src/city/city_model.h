@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -64,6 +65,8 @@ struct Texture {
     TextureWrap wrap = TextureWrap::repeat;
     Rgb border_color{1.0f};  // linear; for TextureWrap::border
     bool is_missing = false;
+    /// The encoded picture where it stands in the city file itself; `path` is empty then, and `uri` names its content.
+    std::shared_ptr<const std::vector<std::uint8_t>> embedded{};
 };
 
 struct Material {

@@ -57,6 +57,14 @@ inline constexpr std::array kFindingCodes{
                 "Repair that line; a last line cut short means an incomplete download."},
     FindingCode{"SB120", Severity::warning, "reference leads nowhere",
                 "Export the object together with what it refers to."},
+    FindingCode{"SB121", Severity::info, "objects were left out as asked",
+                "Nothing to do; widen --bbox or shorten --exclude where one is missed."},
+    FindingCode{"SB122", Severity::info, "part of the file is not read",
+                "Nothing to do, unless it should give or take light."},
+    FindingCode{"SB123", Severity::warning, "footprint has no height; left out",
+                "Give it a height or storeys, or name the attribute with --height-field."},
+    FindingCode{"SB124", Severity::info, "roof of a footprint is taken as flat",
+                "Nothing to do; flat, gabled, hipped and pyramidal roofs on four corners are built."},
 
     FindingCode{"SB201", Severity::warning, "coordinates carry the offset of the transform twice",
                 "Nothing to do: the offset was taken off once. Its writer should store coordinates relative to "
@@ -87,6 +95,8 @@ inline constexpr std::array kFindingCodes{
                 "Let the writer compute geographicalExtent anew; the coordinates are what counts here."},
     FindingCode{"SB216", Severity::error, "object lies far away from the city",
                 "Repair its coordinates, or check it alone."},
+    FindingCode{"SB217", Severity::warning, "two files show the same object",
+                "Nothing to do: the one of the earlier file is used."},
 
     FindingCode{"SB301", Severity::info, "geographic coordinates were projected to metres",
                 "Nothing to do: results are in metres about the city's centre."},
@@ -102,6 +112,7 @@ inline constexpr std::array kFindingCodes{
                 "Bring them into one system first, with cjio or GDAL."},
     FindingCode{"SB307", Severity::warning, "coordinates have north before east",
                 "Nothing to do: x and y were exchanged. Its writer should store east, north, height."},
+    FindingCode{"SB308", Severity::info, "file was brought into the reference system of the first", "Nothing to do."},
 
     FindingCode{"SB401", Severity::warning, "texture image is missing",
                 "Put the image where the file names it; until then the default albedo of the surface is used."},
@@ -122,6 +133,10 @@ inline constexpr std::array kFindingCodes{
     FindingCode{"SB501", Severity::warning, "city has no ground",
                 "Pass --ground plane or --ground draped to add one that receives light and shadow."},
     FindingCode{"SB502", Severity::info, "ground was added", "Nothing to do."},
+    FindingCode{"SB503", Severity::info, "raster became a surface of triangles",
+                "Nothing to do; --raster-error sets how far it may lie from the raster."},
+    FindingCode{"SB504", Severity::warning, "no ground beneath a footprint; it stands at height 0",
+                "Add a terrain file that covers it: skybake bake footprints.gpkg dem.tif."},
 
     FindingCode{"SB601", Severity::warning, "turbidity is outside the range of the sky model",
                 "Take 2 for very clear, 3 for clear, 6 for hazy air."},

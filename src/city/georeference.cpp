@@ -1,111 +1,25 @@
 #include "city/georeference.h"
 
 #include <fmt/format.h>
-#include <proj.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
 #include <limits>
-#include <memory>
 #include <string_view>
 #include <vector>
 
 #include "city/finding_codes.h"
 #include "city/polygon.h"
+#include "city/proj.h"
 #include "city/repair_steps.h"
 
 namespace skybake {
+using namespace proj;
 namespace {
 
 /// A projection whose scale differs more from 1 gives no true metres.
 constexpr double kTrueScale = 1e-3;
-
-struct ContextDeleter {
-    void operator()(PJ_CONTEXT* c) const { proj_context_destroy(c); }
-};
-struct PjDeleter {
-    void operator()(PJ* p) const { proj_destroy(p); }
-};
-using ContextPtr = std::unique_ptr<PJ_CONTEXT, ContextDeleter>;
-using PjPtr = std::unique_ptr<PJ, PjDeleter>;
-
-bool is_digits(std::string_view text) {
-    return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
-}
-
-/// "EPSG:7415" or "EPSG:25832+5783" from a code, an OGC URL or a URN, compound ones included; empty when no EPSG code
-/// is in it.
-std::string epsg_code_of(std::string_view name) {
-    std::vector<std::string> codes;
-    std::size_t at = 0;
-    while ((at = name.find("EPSG", at)) != std::string_view::npos ||
-           (codes.empty() && (at = name.find("epsg")) != std::string_view::npos)) {
-        at += 4;
-        const std::size_t end = std::min(name.find_first_of(",&?+ ", at), name.size());
-        std::string_view rest = name.substr(at, end - at);  // ":7415", "::7415", "/0/7415", ":6.9:7415"
-        while (!rest.empty() && (rest.back() == '/' || rest.back() == ':')) rest.remove_suffix(1);
-        const std::size_t last = rest.find_last_of(":/");
-        if (last != std::string_view::npos && is_digits(rest.substr(last + 1)))
-            codes.emplace_back(rest.substr(last + 1));
-        at = end;
-        if (at < name.size() && name[at] == '+') {
-            const std::size_t stop = std::min(name.find_first_not_of("0123456789", at + 1), name.size());
-            if (is_digits(name.substr(at + 1, stop - at - 1))) codes.emplace_back(name.substr(at + 1, stop - at - 1));
-        }
-    }
-    if (codes.empty()) return is_digits(name) ? fmt::format("EPSG:{}", name) : "";
-    return codes.size() == 1 ? "EPSG:" + codes[0] : fmt::format("EPSG:{}+{}", codes[0], codes[1]);
-}
-
-/// "EPSG:25832+5783" for the names of the German surveys ("urn:adv:crs:ETRS89_UTM32*DE_DHHN92_NH"); empty for others.
-/// Based on: GeoInfoDok 6.0, names of coordinate reference systems.
-std::string adv_code_of(std::string_view name) {
-    struct Entry {
-        std::string_view name, code;
-    };
-    static constexpr std::array kHorizontal{
-        Entry{"ETRS89_UTM31", "25831"}, Entry{"ETRS89_UTM32", "25832"},  Entry{"ETRS89_UTM33", "25833"},
-        Entry{"DE_DHDN_3GK2", "31466"}, Entry{"DE_DHDN_3GK3", "31467"},  Entry{"DE_DHDN_3GK4", "31468"},
-        Entry{"DE_DHDN_3GK5", "31469"}, Entry{"ETRS89_Lat-Lon", "4258"},
-    };
-    static constexpr std::array kVertical{
-        Entry{"DE_DHHN2016_NH", "7837"},
-        Entry{"DE_DHHN92_NH", "5783"},
-        Entry{"DE_DHHN85_NOH", "5784"},
-        Entry{"DE_DHHN12_NOH", "7699"},
-    };
-    if (name.find("adv:crs:") == std::string_view::npos) return "";
-    for (const Entry& horizontal : kHorizontal) {
-        if (name.find(horizontal.name) == std::string_view::npos) continue;
-        for (const Entry& vertical : kVertical) {
-            if (name.find(vertical.name) != std::string_view::npos)
-                return fmt::format("EPSG:{}+{}", horizontal.code, vertical.code);
-        }
-        return fmt::format("EPSG:{}", horizontal.code);
-    }
-    return "";
-}
-
-std::string code_of(std::string_view name) {
-    const std::string adv = adv_code_of(name);
-    return adv.empty() ? epsg_code_of(name) : adv;
-}
-
-/// The two-dimensional or geographic system that x and y belong to, out of compound and bound ones.
-PjPtr horizontal_of(PJ_CONTEXT* context, const PJ* crs) {
-    const PJ_TYPE type = proj_get_type(crs);
-    if (type == PJ_TYPE_COMPOUND_CRS) {
-        const PjPtr part(proj_crs_get_sub_crs(context, crs, 0));
-        return part ? horizontal_of(context, part.get()) : nullptr;
-    }
-    if (type == PJ_TYPE_BOUND_CRS) {
-        const PjPtr source(proj_get_source_crs(context, crs));
-        return source ? horizontal_of(context, source.get()) : nullptr;
-    }
-    return PjPtr(proj_clone(context, crs));
-}
 
 double axis_unit(PJ_CONTEXT* context, const PJ* crs, int axis) {
     const PjPtr system(proj_crs_get_coordinate_system(context, crs));
@@ -113,32 +27,6 @@ double axis_unit(PJ_CONTEXT* context, const PJ* crs, int axis) {
     if (!system || axis >= proj_cs_get_axis_count(context, system.get())) return 1.0;
     proj_cs_get_axis_info(context, system.get(), axis, nullptr, nullptr, nullptr, &factor, nullptr, nullptr, nullptr);
     return factor;
-}
-
-bool is_geographic(PJ_TYPE type) {
-    return type == PJ_TYPE_GEOGRAPHIC_2D_CRS || type == PJ_TYPE_GEOGRAPHIC_3D_CRS;
-}
-
-/// True when the first axis is the one to the north.
-bool is_north_first(PJ_CONTEXT* context, const PJ* crs) {
-    const PjPtr system(proj_crs_get_coordinate_system(context, crs));
-    const char* direction = nullptr;
-    return system &&
-           proj_cs_get_axis_info(context, system.get(), 0, nullptr, nullptr, &direction, nullptr, nullptr, nullptr,
-                                 nullptr) &&
-           direction && std::string_view(direction) == "north";
-}
-
-/// From one system to another, x east (longitude), y north (latitude), degrees; null when PROJ knows no way.
-PjPtr transformation(PJ_CONTEXT* context, const PJ* from, const PJ* to) {
-    const PjPtr raw(proj_create_crs_to_crs_from_pj(context, from, to, nullptr, nullptr));
-    return raw ? PjPtr(proj_normalize_for_visualization(context, raw.get())) : nullptr;
-}
-
-Vec2d apply(PJ* transform, PJ_DIRECTION direction, const Vec2d& p) {
-    const PJ_COORD out =
-        proj_trans(transform, direction, proj_coord(p.x, p.y, 0.0, std::numeric_limits<double>::infinity()));
-    return {out.xy.x, out.xy.y};
 }
 
 bool is_finite(const Vec2d& p) {
@@ -206,17 +94,38 @@ double enclosed_volume(const CityModel& city) {
     return volume;
 }
 
-/// A transverse Mercator of scale 1 about `center_degrees`.
-std::string local_mercator(const Vec2d& center_degrees, const Ellipsoid& ellipsoid) {
+bool is_geocentric(PJ_CONTEXT* context, const std::string& name) {
+    const PjPtr crs = crs_of(context, name);
+    return crs && proj_get_type(crs.get()) == PJ_TYPE_GEOCENTRIC_CRS;
+}
+
+/// Places about the Earth's centre become latitude, longitude and height above the ellipsoid.
+void to_geographic(PJ_CONTEXT* context, CityModel& city) {
+    constexpr const char* kGeographic = "EPSG:4979";  // latitude first
+    const PjPtr from = crs_of(context, city.crs), to = crs_of(context, kGeographic);
+    const PjPtr transform = from && to ? transformation(context, from.get(), to.get()) : nullptr;
+    if (!transform) return;
+    for (CityObject& object : city.objects) {
+        for (Vec3d& p : object.geometry.vertices) {
+            if (!repair_steps::is_place(p)) continue;
+            const PJ_COORD out = proj_trans(transform.get(), PJ_FWD, proj_coord(p.x, p.y, p.z, HUGE_VAL));
+            p = {out.xyz.y, out.xyz.x, out.xyz.z};
+        }
+    }
+    city.crs = kGeographic;
+}
+
+/// A transverse Mercator of scale 1 about `center_degrees`, as PROJ's definition.
+std::string local_projection(const Vec2d& center_degrees, const Ellipsoid& ellipsoid) {
     return fmt::format("+proj=tmerc +lat_0={:.12f} +lon_0={:.12f} +k=1 +x_0=0 +y_0=0 +a={} +rf={}", center_degrees.y,
                        center_degrees.x, ellipsoid.a,
                        ellipsoid.inverse_flattening == 0.0 ? 1e30 : ellipsoid.inverse_flattening);
 }
 
-/// Moves all vertices to the local transverse Mercator. `to_geographic` takes x east, y north.
+/// Moves all vertices to `projection`. `to_geographic` takes x east, y north.
 bool project_to_metres(PJ_CONTEXT* context, CityModel& city, PJ* to_geographic, bool swap, double z_unit,
-                       const Vec2d& center_degrees, const Ellipsoid& ellipsoid) {
-    const PjPtr mercator(proj_create(context, local_mercator(center_degrees, ellipsoid).c_str()));
+                       const std::string& projection) {
+    const PjPtr mercator(proj_create(context, projection.c_str()));
     if (!mercator) return false;
     for (CityObject& object : city.objects) {
         for (Vec3d& p : object.geometry.vertices) {
@@ -245,14 +154,12 @@ Georeference georeference(CityModel& city, FindingLog& findings) {
             "names no coordinate reference system; coordinates are taken as metres, grid north as true north.");
         return result;
     }
-    const ContextPtr owner(proj_context_create());
+    const ContextPtr owner = make_context();
     PJ_CONTEXT* context = owner.get();
-    proj_log_level(context, PJ_LOG_NONE);
-    proj_context_set_enable_network(context, 0);
-
+    if (is_geocentric(context, city.crs)) to_geographic(context, city);
     const std::string code = code_of(city.crs);
-    const PjPtr crs(proj_create(context, code.empty() ? city.crs.c_str() : code.c_str()));
-    const PjPtr horizontal = crs && proj_is_crs(crs.get()) ? horizontal_of(context, crs.get()) : nullptr;
+    const PjPtr crs = crs_of(context, city.crs);
+    const PjPtr horizontal = crs ? horizontal_of(context, crs.get()) : nullptr;
     const PJ_TYPE type = horizontal ? proj_get_type(horizontal.get()) : PJ_TYPE_UNKNOWN;
     if (!horizontal || !(is_geographic(type) || type == PJ_TYPE_PROJECTED_CRS)) {
         add("SB303", fmt::format("its coordinate reference system '{}' is unknown, or neither projected nor "
@@ -300,6 +207,11 @@ Georeference georeference(CityModel& city, FindingLog& findings) {
         is_in_area(swap ? center : Vec2d(center.y, center.x))) {
         swap = !swap;
     }
+    const char* wkt = geodetic ? proj_as_wkt(context, geodetic.get(), PJ_WKT2_2019, nullptr) : nullptr;
+    const auto note_projection = [&](const std::string& projection) {
+        result.local_projection = projection;
+        result.local_geographic = wkt ? wkt : "";
+    };
     const PjPtr to_geodetic = is_degrees ? nullptr
                               : geodetic ? transformation(context, horizontal.get(), geodetic.get())
                                          : nullptr;
@@ -314,8 +226,10 @@ Georeference georeference(CityModel& city, FindingLog& findings) {
     }
     result.site = Site{radians_from_degrees(site.y), radians_from_degrees(site.x), box.lo.z};
     if (is_degrees) {
-        if (project_to_metres(context, city, nullptr, swap, 1.0, degrees, ellipsoid)) {
-            result.coordinate_crs = local_mercator(degrees, ellipsoid) + " +units=m +type=crs";
+        const std::string projection = local_projection(degrees, ellipsoid);
+        if (project_to_metres(context, city, nullptr, swap, 1.0, projection)) {
+            note_projection(projection);
+            result.coordinate_crs = projection + " +units=m +type=crs";
             add("SB301",
                 fmt::format(
                     "coordinates in degrees of {} were projected to a transverse Mercator about {:.6f} N {:.6f} E.",
@@ -336,8 +250,10 @@ Georeference georeference(CityModel& city, FindingLog& findings) {
         if (const PjPtr vertical{proj_crs_get_sub_crs(context, crs.get(), 1)})
             z_unit = axis_unit(context, vertical.get(), 0);
     }
-    if (project_to_metres(context, city, to_geodetic.get(), false, z_unit, degrees, ellipsoid)) {
-        result.coordinate_crs = local_mercator(degrees, ellipsoid) + " +units=m +type=crs";
+    const std::string projection = local_projection(degrees, ellipsoid);
+    if (project_to_metres(context, city, to_geodetic.get(), false, z_unit, projection)) {
+        note_projection(projection);
+        result.coordinate_crs = projection + " +units=m +type=crs";
         add("SB302", fmt::format("{} shows a metre as {:.4f} here; coordinates were projected to a transverse Mercator "
                                  "about {:.6f} N {:.6f} E.",
                                  result.crs_name, scale.north, degrees.y, degrees.x));
@@ -348,13 +264,83 @@ Georeference georeference(CityModel& city, FindingLog& findings) {
 }
 
 bool is_geographic_crs(const std::string& name) {
-    const ContextPtr context(proj_context_create());
-    proj_log_level(context.get(), PJ_LOG_NONE);
-    proj_context_set_enable_network(context.get(), 0);
-    const std::string code = code_of(name);
-    const PjPtr crs(proj_create(context.get(), code.empty() ? name.c_str() : code.c_str()));
-    const PjPtr horizontal = crs && proj_is_crs(crs.get()) ? horizontal_of(context.get(), crs.get()) : nullptr;
+    const ContextPtr context = make_context();
+    const PjPtr crs = crs_of(context.get(), name);
+    const PjPtr horizontal = crs ? horizontal_of(context.get(), crs.get()) : nullptr;
     return horizontal && is_geographic(proj_get_type(horizontal.get()));
+}
+
+void to_named_system(CityModel& city, const Georeference& georeference) {
+    const auto url = [](std::string_view number) {
+        return fmt::format("https://www.opengis.net/def/crs/EPSG/0/{}", number);
+    };
+    if (georeference.local_projection.empty()) {
+        const std::string_view code = georeference.crs_code;
+        const std::size_t plus = std::min(code.find('+'), code.size());
+        if (code.empty()) {
+            city.crs.clear();
+        } else if (plus == code.size()) {
+            city.crs = url(code.substr(5));
+        } else {
+            city.crs = fmt::format("https://www.opengis.net/def/crs-compound?1={}&2={}", url(code.substr(5, plus - 5)),
+                                   url(code.substr(plus + 1)));
+        }
+        return;
+    }
+    city.crs.clear();
+    if (!georeference.site) return;
+    const double longitude = degrees_from_radians(georeference.site->longitude_rad);
+    const int zone = std::clamp(static_cast<int>(std::floor((longitude + 180.0) / 6.0)) + 1, 1, 60);
+    const int epsg = (georeference.site->latitude_rad < 0.0 ? 32700 : 32600) + zone;
+    const ContextPtr context = make_context();
+    const PjPtr mercator(proj_create(context.get(), georeference.local_projection.c_str()));
+    const PjPtr from(proj_create(context.get(), georeference.local_geographic.c_str()));
+    const PjPtr to = crs_of(context.get(), fmt::format("EPSG:{}", epsg));
+    const PjPtr transform = mercator && from && to ? transformation(context.get(), from.get(), to.get()) : nullptr;
+    if (!transform) return;
+    for (CityObject& object : city.objects) {
+        for (Vec3d& p : object.geometry.vertices) {
+            const Vec2d radians = apply(mercator.get(), PJ_INV, Vec2d(p));
+            const Vec2d utm =
+                apply(transform.get(), PJ_FWD, {degrees_from_radians(radians.x), degrees_from_radians(radians.y)});
+            p = Vec3d(utm, p.z);
+        }
+    }
+    city.crs = url(std::to_string(epsg));
+}
+
+void bring_into_system(CityModel& city, std::size_t first_object, const std::string& from_name, const std::string& file,
+                       FindingLog& findings) {
+    const auto tell = [&](std::string_view code, std::string what) {
+        findings.add(make_finding(code, file, std::move(what)));
+    };
+    if (code_of(from_name) == code_of(city.crs) && (from_name == city.crs || !code_of(from_name).empty())) return;
+    const ContextPtr context = make_context();
+    const PjPtr from_crs = crs_of(context.get(), from_name), to_crs = crs_of(context.get(), city.crs);
+    const PjPtr from = from_crs ? horizontal_of(context.get(), from_crs.get()) : nullptr;
+    const PjPtr to = to_crs ? horizontal_of(context.get(), to_crs.get()) : nullptr;
+    if (from && to && proj_is_equivalent_to(from.get(), to.get(), PJ_COMP_EQUIVALENT_EXCEPT_AXIS_ORDER_GEOGCRS)) return;
+    const PjPtr transform = from && to ? transformation(context.get(), from.get(), to.get()) : nullptr;
+    if (!transform) {
+        tell("SB306", fmt::format("names '{}', the files before it '{}', and no way leads from one to the other here; "
+                                  "taken as one system.",
+                                  from_name, city.crs));
+        return;
+    }
+    const auto is_latitude_first = [&](const PJ* crs) {
+        return is_geographic(proj_get_type(crs)) && is_north_first(context.get(), crs);
+    };
+    const bool swaps_from = is_latitude_first(from.get()), swaps_to = is_latitude_first(to.get());
+    const auto swapped = [](const Vec2d& p) { return Vec2d(p.y, p.x); };
+    for (std::size_t i = first_object; i < city.objects.size(); ++i) {
+        for (Vec3d& p : city.objects[i].geometry.vertices) {
+            if (!repair_steps::is_place(p)) continue;
+            const Vec2d moved = apply(transform.get(), PJ_FWD, swaps_from ? swapped(Vec2d(p)) : Vec2d(p));
+            p = Vec3d(swaps_to ? swapped(moved) : moved, p.z);  // heights keep their own system
+        }
+    }
+    tell("SB308", fmt::format("names '{}', the files before it '{}'; it was brought into theirs, heights as they are.",
+                              from_name, city.crs));
 }
 
 }  // namespace skybake

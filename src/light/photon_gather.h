@@ -8,16 +8,18 @@
 
 #include "light/path_reference.h"
 #include "light/photon_map.h"
+#include "light/surfaces.h"
 #include "trace/ray_scene.h"
 
 namespace skybake {
 
 enum class PhotonArea {
     octagon,  // the photons' bounding octagon, extended so that it is unbiased
+    hull,     // their convex hull, extended likewise
     circle    // the circle about the point out to the farthest photon
 };
 /// In the order of PhotonArea, as options and the manifest spell them.
-inline constexpr std::array<std::string_view, 2> kPhotonAreaNames{"octagon", "circle"};
+inline constexpr std::array<std::string_view, 3> kPhotonAreaNames{"octagon", "hull", "circle"};
 
 struct GatherOptions {
     int nearest = 100;  // photons per point, at least 4
@@ -40,6 +42,11 @@ struct PhotonWindow {
 /// to a straight border along the octagon's directions (docs/physics.md, "Octagon"); 0 where all touch it.
 Rgb octagon_irradiance(std::span<const NearPhoton> photons, std::span<const Photon> all);
 
+/// The hull's estimate: the same with the convex hull of the photons and its corners in place of the octagon and those
+/// that touch it. Unbiased for any m for photons evenly spread over the window or over any convex part of it
+/// (docs/physics.md, "Hull").
+Rgb hull_irradiance(std::span<const NearPhoton> photons, std::span<const Photon> all);
+
 /// The circle's estimate: ΣΦ over the window's area.
 Rgb circle_irradiance(std::span<const NearPhoton> photons, std::span<const Photon> all, const PhotonWindow& window);
 
@@ -49,14 +56,14 @@ class PhotonGatherer {
     /// of them on the mean.
     PhotonGatherer(const PhotonMap& map, const RayScene& rays, double area_m2, const GatherOptions& options);
 
-    /// /// Irradiance at a point of a surface of unit `normal`, lx per channel. Feelers leave from a little above the
-    /// surface and reach twice as far as the photons; beyond what they meet no photon counts, the area ends there, and
-    /// others are looked for on this side, as far as the feelers.
-    /// Adds the number of feelers traced to `ray_count`. `found` is scratch. Thread-safe.
-    Rgb irradiance(const Vec3f& position, const Vec3f& normal, std::vector<NearPhoton>& found,
-                   std::uint64_t& ray_count) const;
+    /// Reflected light at a point of a surface. Feelers leave from a little above the surface and reach twice as far as
+    /// the photons; beyond what they meet no photon counts, the area ends there, and others are looked for on this
+    /// side, as far as the feelers. The standard error stays 0: one map knows nothing of its own. Adds the number of
+    /// feelers traced to `ray_count`. `found` is scratch. Thread-safe.
+    IndirectLight light(const ReceiverPoint& point, std::vector<NearPhoton>& found, std::uint64_t& ray_count) const;
 
   private:
+    Rgb estimate(std::span<const NearPhoton> found, const PhotonWindow& window) const;
     bool find_limits(const Vec3f& position, const Vec3f& normal, float reach, PhotonWindow& window,
                      std::uint64_t& ray_count) const;
 
@@ -66,10 +73,7 @@ class PhotonGatherer {
     float max_distance_;
 };
 
-/// Surface of the scene, both-sided triangles counted once, m².
-double surface_area(const Scene& scene);
-
-/// The same at free points; parallel. The standard error stays 0: one map knows nothing of its own.
+/// The same at free points; parallel.
 std::vector<IndirectLight> gather_indirect(std::span<const ReceiverPoint> points, const PhotonGatherer& gatherer,
                                            std::uint64_t& ray_count);
 

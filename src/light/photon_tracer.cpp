@@ -184,7 +184,11 @@ class Emitter {
 class PhotonTracer {
   public:
     PhotonTracer(const LightSources& sources, const Scene& scene, const RayScene& rays, const PhotonOptions& options)
-        : sources_(sources), scene_(scene), rays_(rays), options_(options) {
+        : sources_(sources),
+          scene_(scene),
+          rays_(rays),
+          options_(options),
+          wanted_(options.count.value_or(default_photon_count(scene))) {
         Box3f box = scene.bounds;
         // A little larger: surfaces that lie on the box itself are met too.
         const float margin = std::max(0.01f, 4.0f * rays.surface_offset());
@@ -211,7 +215,7 @@ class PhotonTracer {
             if (flux > 0.0) emitters_.emplace_back(Emitter::Kind::lamp, flux, nullptr, &lamp, std::nullopt);
         }
         for (std::size_t e = 0; e < emitters_.size(); ++e) sequences_.emplace_back(options.seed, e);
-        share_out(std::max(options.count / kPilotShare, kMinPilot));
+        share_out(std::max(wanted_ / kPilotShare, kMinPilot));
     }
 
     std::uint64_t count() const { return first_.back(); }
@@ -258,7 +262,7 @@ class PhotonTracer {
                 emitters_[e].set_aim(Aim(weight));
             }
         }
-        share_out(options_.count);
+        share_out(wanted_);
         return rays;
     }
 
@@ -337,6 +341,7 @@ class PhotonTracer {
     const Scene& scene_;
     const RayScene& rays_;
     const PhotonOptions& options_;
+    std::uint64_t wanted_;
     std::vector<BoxFace> faces_;
     std::vector<Emitter> emitters_;
     std::vector<DepartureSequence> sequences_;  // [emitter]
@@ -344,6 +349,11 @@ class PhotonTracer {
 };
 
 }  // namespace
+
+std::uint64_t default_photon_count(const Scene& scene) {
+    constexpr double kPerSquareMetre = 20.0;
+    return static_cast<std::uint64_t>(std::clamp(kPerSquareMetre * surface_area(scene), 1e6, 2e8));
+}
 
 PhotonRun trace_photons(const LightSources& sources, const Scene& scene, const RayScene& rays,
                         const PhotonOptions& options, Progress& progress) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "base/progress.h"
@@ -13,8 +14,9 @@
 namespace skybake {
 
 struct PhotonOptions {
-    std::uint64_t count = 1'000'000;  // emitted; a few more where faint sources would be left out
-    int bounces = 8;                  // reflections at most
+    /// Emitted; a few more where faint sources would be left out. Without, default_photon_count.
+    std::optional<std::uint64_t> count = std::nullopt;
+    int bounces = 8;  // reflections at most
     std::uint64_t seed = 0;
 };
 
@@ -32,6 +34,10 @@ struct PhotonRun {
     std::vector<Photon> photons;  // from the second hit on: direct light is never stored
     PhotonLedger ledger;
 };
+
+/// Twenty a square metre of surface, between one million and two hundred: the error goes with the photons' density, not
+/// with their number (docs/benchmarks.md, "Photons against the reference").
+std::uint64_t default_photon_count(const Scene& scene);
 
 /// Sun and sky shine through the faces of the scene's box, so that no photon starts where it could not meet the city. A
 /// pilot run of a twentieth finds from where on the faces light comes to rest after a reflection: most photons start

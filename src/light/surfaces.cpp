@@ -51,4 +51,11 @@ TangentFrame tangent_frame(const Vec3f& n) {
     return {{1.0f + sign * n.x * n.x * a, sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}};
 }
 
+double surface_area(const Scene& scene) {
+    double area = 0.0;
+    for (const auto& t : scene.triangles)
+        area += 0.5 * static_cast<double>(glm::length(glm::cross(t[1] - t[0], t[2] - t[0])));
+    return area;
+}
+
 }  // namespace skybake

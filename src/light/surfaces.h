@@ -35,4 +35,7 @@ struct TangentFrame {
 };
 TangentFrame tangent_frame(const Vec3f& normal);
 
+/// Surface of the scene, both-sided triangles counted once, m².
+double surface_area(const Scene& scene);
+
 }  // namespace skybake

@@ -49,7 +49,9 @@ RTCRay single_ray(const Vec3f& origin, const Vec3f& direction, float distance) {
 
 }  // namespace
 
-RayScene::RayScene(const Scene& scene) : embree_(std::make_unique<Embree>()) {
+RayScene::RayScene(const Scene& scene) : RayScene(std::span(scene.triangles)) {}
+
+RayScene::RayScene(std::span<const std::array<Vec3f, 3>> triangles) : embree_(std::make_unique<Embree>()) {
     embree_->device = rtcNewDevice(nullptr);
     if (!embree_->device) throw std::runtime_error("Embree cannot start on this processor");
     embree_->scene = rtcNewScene(embree_->device);
@@ -57,15 +59,15 @@ RayScene::RayScene(const Scene& scene) : embree_(std::make_unique<Embree>()) {
     // (docs/decisions/0006-rays-without-the-robust-flag.md).
     rtcSetSceneBuildQuality(embree_->scene, RTC_BUILD_QUALITY_HIGH);
 
-    if (!scene.triangles.empty()) {
+    if (!triangles.empty()) {
         RTCGeometry geometry = rtcNewGeometry(embree_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
-        const std::size_t count = scene.triangles.size();
+        const std::size_t count = triangles.size();
         auto* vertices = static_cast<Vec3f*>(
             rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3f), 3 * count));
         auto* indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
             geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), count));
         if (!vertices || !indices) throw std::bad_alloc();
-        std::memcpy(vertices, scene.triangles.data(), count * sizeof(scene.triangles[0]));
+        std::memcpy(vertices, triangles.data(), triangles.size_bytes());
         for (std::size_t i = 0; i < 3 * count; ++i) indices[i] = static_cast<std::uint32_t>(i);
         rtcCommitGeometry(geometry);
         rtcAttachGeometry(embree_->scene, geometry);
@@ -78,9 +80,9 @@ RayScene::RayScene(const Scene& scene) : embree_(std::make_unique<Embree>()) {
         throw std::runtime_error("Embree cannot build its hierarchy: error " + std::to_string(error));
 
     float reach = 1.0f;
-    if (!scene.bounds.is_empty()) {
-        for (int axis = 0; axis < 3; ++axis)
-            reach = std::max({reach, std::abs(scene.bounds.lo[axis]), std::abs(scene.bounds.hi[axis])});
+    for (const std::array<Vec3f, 3>& triangle : triangles) {
+        for (const Vec3f& corner : triangle)
+            reach = std::max({reach, std::abs(corner.x), std::abs(corner.y), std::abs(corner.z)});
     }
     // 16 units in the last place of the farthest coordinate: a corner is off by half of one, a plane through three by a
     // few.

@@ -1,10 +1,12 @@
 // Rays against the city: the only user of Embree.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "base/vec.h"
 #include "scene/scene.h"
@@ -26,6 +28,8 @@ class RayScene {
     static constexpr int kPacketSize = 16;
 
     explicit RayScene(const Scene& scene);
+    /// The same over bare triangles, metres; hits name their index.
+    explicit RayScene(std::span<const std::array<Vec3f, 3>> triangles);
     ~RayScene();
     RayScene(RayScene&&) noexcept;
 

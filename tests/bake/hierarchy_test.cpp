@@ -80,8 +80,9 @@ Lightmaps bake_with_photons(const Scene& scene, const Atlas& atlas, SkySampling 
         {"noon",
          UniformSky{1000.0f},
          {glm::normalize(Vec3f(0.3f, -0.6f, 0.7f)), Rgb(50000.0f), 700.0f, 0.00465f, SunShape::point}}};
-    BakeOptions options{64, sampling, 0.01f, BouncePhotons{}};
-    options.bounces->photons.count = 50'000;
+    BouncePhotons bounces;
+    bounces.photons.count = 50'000;
+    const BakeOptions options{64, sampling, 0.01f, bounces};
     return bake_lightmaps(scene, atlas, rays, instants, options, silent, report);
 }
 

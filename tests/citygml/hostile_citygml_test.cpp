@@ -1,4 +1,5 @@
 // Files that want to do harm, or that were: an error or a finding, soon, and nothing else.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -54,7 +55,7 @@ TEST(HostileCityGml, ReferencesDoNotMultiply) {
     std::string sets;
     for (int i = 0; i < 30; ++i) {
         sets += "<gml:surfaceMember><gml:MultiSurface gml:id=\"s" + std::to_string(i) + "\">";
-        for (int k = 0; k < 10; ++k) sets += refer("surfaceMember", "s" + std::to_string(i + 1));
+        for (int k = 0; k < 10; ++k) sets += refer("surfaceMember", fmt::format("s{}", i + 1));
         sets += "</gml:MultiSurface></gml:surfaceMember>";
     }
     const std::string solids = "<bldg:lod2Solid><gml:MultiSolid gml:id=\"m\">" + refer("solidMember", "m") +

@@ -1,11 +1,7 @@
 // Real CityGML files and their real faults. Truth: the table and the notes of the data's DATA.md, counted there by
 // other tools.
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <map>
@@ -139,80 +135,6 @@ TEST(RealCityGml, TheValidatorsControlsHaveNoErrors) {
                 testing::HasSubstr("line 15: LinearRing: 5 numbers are no whole positions of 3"));
     EXPECT_EQ(load(test_data("data/broken/go-citygml/unsupported_objects.gml")).findings.count("SB117"), 1u);
     EXPECT_EQ(load(test_data("data/broken/go-citygml/malformed_ring.gml")).findings.count("SB209"), 1u);
-}
-
-/// The figures of one data set, read in a process of its own so that the peak memory is its own.
-std::string row_of(const std::string& name, const std::vector<std::filesystem::path>& files) {
-    int pipe_ends[2];
-    if (pipe(pipe_ends) != 0) return "no pipe";
-    const pid_t child = fork();
-    if (child == 0) {
-        SilentProgress progress;
-        std::string row;
-        try {
-            const LoadedCity loaded = load_city(files, {}, progress);
-            const auto missing = std::count_if(loaded.city.textures.begin(), loaded.city.textures.end(),
-                                               [](const Texture& t) { return t.is_missing; });
-            std::string codes;
-            std::map<std::string, std::uint64_t> by_code;
-            for (const Finding& finding : loaded.findings.list()) by_code[finding.code] += finding.count;
-            for (const auto& [code, count] : by_code)
-                codes += fmt::format("{}{} {}", codes.empty() ? "" : ", ", code, count);
-            rusage usage{};
-            getrusage(RUSAGE_SELF, &usage);
-            row = fmt::format("| {} | {} | {} | {} | {} + {} | {} | {:.2f} | {} |", name, loaded.city.objects.size(),
-                              loaded.summary.surfaces, loaded.summary.triangles,
-                              static_cast<long>(loaded.city.textures.size()) - missing, missing, codes,
-                              loaded.read_seconds, usage.ru_maxrss / 1024);
-        } catch (const std::exception& error) {
-            row = fmt::format("| {} | refused: {} |", name, error.what());
-        }
-        const auto written = write(pipe_ends[1], row.data(), row.size());
-        _exit(written == static_cast<ssize_t>(row.size()) ? 0 : 1);
-    }
-    close(pipe_ends[1]);
-    std::string row;
-    char buffer[4096];
-    for (ssize_t count; (count = read(pipe_ends[0], buffer, sizeof buffer)) > 0;)
-        row.append(buffer, static_cast<std::size_t>(count));
-    close(pipe_ends[0]);
-    int status = 0;
-    waitpid(child, &status, 0);
-    EXPECT_EQ(status, 0) << name;
-    return row;
-}
-
-TEST(RealCityGml, TableOfAllDataSets) {
-    const auto data = test_data("data");
-    SKYBAKE_NEEDS_DATA(data);
-    static const std::map<std::string, std::string> kFolders{{"Graz, 2.0", "graz-inffeld-citygml"},
-                                                             {"Ingolstadt, 2.0, 18 files", "ingolstadt-lod3-citygml"},
-                                                             {"Lyon house, 2.0", "lyon-textured-house-citygml"},
-                                                             {"Tokyo", "tokyo-plateau-textured-citygml"},
-                                                             {"Berlin, 1.0", "berlin-citygml10"},
-                                                             {"Potsdam, 1.0", "potsdam-lod1-citygml10"},
-                                                             {"West Tokyo, 2.0", "tokyo-west-plateau-lod1-citygml"},
-                                                             {"broken", "broken"}};
-    std::string table =
-        "\n| data set | objects | surfaces | triangles | images found + missing | findings | seconds | peak MB |\n"
-        "| --- | --- | --- | --- | --- | --- | --- | --- |\n";
-    for (const auto& [name, folder] : kFolders) {
-        std::vector<std::filesystem::path> files;
-        for (const auto& entry : std::filesystem::recursive_directory_iterator(data / folder)) {
-            const std::string extension = entry.path().extension().string();
-            if (extension == ".gml" || extension == ".citygml" || (extension == ".xml" && folder != "broken"))
-                files.push_back(entry.path());
-        }
-        std::sort(files.begin(), files.end());
-        ASSERT_FALSE(files.empty()) << folder;
-        if (name == "Tokyo" || name == "broken") {
-            for (const auto& file : files) table += row_of(file.filename().string(), {file}) + "\n";
-        } else {
-            table += row_of(name, files) + "\n";
-        }
-    }
-    EXPECT_EQ(table.find("refused"), std::string::npos);
-    std::printf("%s", table.c_str());
 }
 
 }  // namespace

@@ -84,8 +84,8 @@ TEST(ReadCityJson, ABrokenDocumentIsRefusedWithLineAndColumn) {
 TEST(ReadCityJson, OtherFormatsAreRefusedByName) {
     EXPECT_THAT(error_of("<?xml version=\"1.0\"?><COLLADA/>"),
                 HasSubstr("is COLLADA, which this version does not read"));
-    EXPECT_THAT(error_of("# a mesh\nv 0 0 0\nv 1 0 0\n"), HasSubstr("is Wavefront OBJ"));
-    EXPECT_THAT(error_of("b3dm...."), HasSubstr("is 3D Tiles (b3dm)"));
+    EXPECT_THAT(error_of("pnts...."), HasSubstr("is 3D Tiles (pnts)"));
+    EXPECT_THAT(error_of("date;E00;A00"), HasSubstr("is a file of unknown format"));
     EXPECT_THAT(error_of("LOCATION,Graz,,AUT"), HasSubstr("is EnergyPlus weather (EPW)"));
     EXPECT_THAT(error_of("\x1f\x8b\x08"), HasSubstr("is gzip-compressed data"));
     SilentProgress progress;

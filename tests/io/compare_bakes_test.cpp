@@ -83,6 +83,26 @@ TEST_F(CompareBakes, ConstantDifferenceIsBiasAndRmse) {
     EXPECT_EQ(c.all.texels_off, 0u);
 }
 
+// Reflected light is a part of its own, and of the total; a bake without has none.
+TEST_F(CompareBakes, ReflectedLightIsCompared) {
+    const auto with_indirect = [](float lx) {
+        SmallBake bake = uniform_bake(10000.0f, 0.0f);
+        for (BakedInstant& instant : bake.light.instants) {
+            for (LightmapLayer& layer : instant.pages) layer.indirect.assign(layer.sky.size(), Rgb(lx));
+        }
+        return bake;
+    };
+    const BakeComparison c = compare(with_indirect(1200.0f), with_indirect(1000.0f));
+    EXPECT_NEAR(c.all.indirect.mean, 1000.0, 1e-2);
+    EXPECT_NEAR(c.all.indirect.bias, 200.0, 1e-2);
+    EXPECT_NEAR(c.all.total.bias, 200.0, 1e-2);
+    EXPECT_NEAR(c.all.total.mean, 11000.0, 1e-2);
+    EXPECT_EQ(c.all.sky.rmse, 0.0);
+    const BakeComparison none = compare(uniform_bake(10000.0f, 0.0f), with_indirect(1000.0f));
+    EXPECT_NEAR(none.all.indirect.bias, -1000.0, 1e-2);
+    EXPECT_EQ(compare(uniform_bake(1.0f, 0.0f), uniform_bake(1.0f, 0.0f)).all.indirect.mean, 0.0);
+}
+
 // One texel of one instant: RMSE = d/√n, the share above 10 % of the mean is one texel, and the list names its place.
 TEST_F(CompareBakes, SingleTexelIsFoundAndNamed) {
     SmallBake a = uniform_bake(10000.0f, 0.0f);

@@ -17,7 +17,7 @@ IndirectLight at(const Scene& scene, const LightSources& sources, const Receiver
                  const PathOptions& options) {
     const RayScene rays(scene);
     SilentProgress silent;
-    return trace_indirect(std::vector{point}, sources, scene, rays, options, silent)[0];
+    return PathReference(sources, scene, rays, options).light(std::vector{point}, silent)[0];
 }
 
 void expect_within(const IndirectLight& light, double truth, double relative) {
@@ -120,7 +120,7 @@ TEST(StandardError, IsHonest) {
     double mean = 0.0;
     for (int seed = 0; seed < kRuns; ++seed) {
         runs.push_back(
-            trace_indirect(points, sources, scene, rays, {512, 6, static_cast<std::uint64_t>(seed)}, silent)[0]);
+            PathReference(sources, scene, rays, {512, 6, static_cast<std::uint64_t>(seed)}).light(points, silent)[0]);
         mean += static_cast<double>(luminance(runs.back().irradiance)) / kRuns;
     }
     double chi2 = 0.0;
@@ -139,7 +139,7 @@ TEST(Reference, IsTheSameForAnyNumberOfThreadsAndAnyCompany) {
     for (int i = 0; i < 20; ++i) points.push_back({{3.0f + static_cast<float>(i), 0, 0}, {0, 0, 1}});
     const auto trace = [&](std::span<const ReceiverPoint> some, std::size_t threads) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-        return trace_indirect(some, sources, scene, rays, {700, 5, 9}, silent);
+        return PathReference(sources, scene, rays, {700, 5, 9}).light(some, silent);
     };
     const auto one = trace(points, 1), seven = trace(points, 7), alone = trace(std::span(points).subspan(7, 1), 2);
     for (std::size_t i = 0; i < points.size(); ++i) {

@@ -136,7 +136,7 @@ TEST(Photons, AgreeWithThePaths) {
     const RayScene rays(scene);
     SilentProgress silent;
     double truth = 0.0, error2 = 0.0;
-    for (const IndirectLight& light : trace_indirect(points, sources, scene, rays, {1024, 8, 1}, silent)) {
+    for (const IndirectLight& light : PathReference(sources, scene, rays, {1024, 8, 1}).light(points, silent)) {
         truth += static_cast<double>(luminance(light.irradiance)) / 400.0;
         error2 += std::pow(static_cast<double>(light.standard_error_lx) / 400.0, 2.0);
     }

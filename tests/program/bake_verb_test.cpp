@@ -63,7 +63,8 @@ TEST_F(BakeVerb, WritesTheSameBytesForAnyNumberOfThreads) {
 TEST_F(BakeVerb, WritesTheSamePhotonsForAnyNumberOfThreads) {
     const auto with_photons = [&](const std::string& folder, const std::string& threads) {
         std::vector<std::string> arguments = bake("a/town.city.json", folder, "2", threads);
-        arguments.insert(arguments.end(), {"--indirect", "photons", "--photons", "60000", "--seed", "3"});
+        arguments.insert(arguments.end(),
+                         {"--indirect", "photons", "--photons", "60000", "--seed", "3", "--report-leaks"});
         return run(arguments);
     };
     ASSERT_EQ(with_photons("one", "1"), 0);
@@ -75,6 +76,8 @@ TEST_F(BakeVerb, WritesTheSamePhotonsForAnyNumberOfThreads) {
         lumen.at("absorbed").get<double>() + lumen.at("escaped").get<double>() + lumen.at("at_limit").get<double>(),
         lumen.at("emitted").get<double>(), 1e-6 * lumen.at("emitted").get<double>());
     EXPECT_EQ(manifest.at("settings").at("photons"), "60000");
+    ASSERT_TRUE(one.contains("light/i0_p0_leaks.png"));
+    EXPECT_GE(manifest.at("report").at("leaks").at("area_m2").get<double>(), 0.0);
     for (const char* threads : {"2", "7"}) {
         ASSERT_EQ(with_photons(threads, threads), 0);
         expect_equal(one, bytes_of(threads));
@@ -106,6 +109,24 @@ TEST_F(BakeVerb, WritesTheSameLampsForAnyNumberOfThreads) {
         ASSERT_EQ(night(threads, threads), 0);
         expect_equal(one, bytes_of(threads));
     }
+}
+
+/// Paths likewise; their settings and their standard error stand in the manifest.
+TEST_F(BakeVerb, WritesTheSamePathsForAnyNumberOfThreads) {
+    const auto with_paths = [&](const std::string& folder, const std::string& threads) {
+        std::vector<std::string> arguments = bake("a/town.city.json", folder, "4", threads);
+        arguments.insert(arguments.end(), {"--indirect", "reference", "--paths", "8", "--bounces", "3"});
+        return run(arguments);
+    };
+    ASSERT_EQ(with_paths("one", "1"), 0);
+    const auto one = bytes_of("one");
+    const auto manifest = nlohmann::json::parse(one.at("manifest.json"));
+    EXPECT_EQ(manifest.at("settings").at("paths"), "8");
+    EXPECT_FALSE(manifest.at("settings").contains("photons"));
+    EXPECT_GT(manifest.at("report").at("indirect_lx").at("mean").get<double>(), 0.0);
+    EXPECT_GT(manifest.at("report").at("indirect_lx").at("standard_error").get<double>(), 0.0);
+    ASSERT_EQ(with_paths("seven", "7"), 0);
+    expect_equal(one, bytes_of("seven"));
 }
 
 TEST_F(BakeVerb, WritesTheSameBytesForShuffledObjects) {

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <httplib.h>
+#include <libdeflate.h>
 
 #include <filesystem>
 #include <fstream>
@@ -103,6 +104,44 @@ TEST_F(WebServerTest, AnswersRangesAndHeads) {
     EXPECT_EQ(head->get_header_value("Content-Length"), "10");
 }
 
+TEST_F(WebServerTest, TextAndGeometryAreGzippedForWhoAsks) {
+    const std::string text(100000, 'a');
+    put(root_ / "large.glb", text);
+    put(root_ / "light" / "page.png", text);
+    client_->set_decompress(false);
+    const auto packed = client_->Get("/large.glb", {{"Accept-Encoding", "br, gzip;q=0.8"}});
+    ASSERT_TRUE(packed);
+    EXPECT_EQ(packed->get_header_value("Content-Encoding"), "gzip");
+    EXPECT_EQ(packed->get_header_value("Content-Type"), "model/gltf-binary");
+    EXPECT_EQ(packed->get_header_value("Vary"), "Accept-Encoding");
+    EXPECT_LT(packed->body.size(), text.size() / 10);
+    std::string whole(text.size(), '\0');
+    std::size_t size = 0;
+    const std::unique_ptr<libdeflate_decompressor, void (*)(libdeflate_decompressor*)> decompressor(
+        libdeflate_alloc_decompressor(), libdeflate_free_decompressor);
+    EXPECT_EQ(libdeflate_gzip_decompress(decompressor.get(), packed->body.data(), packed->body.size(), whole.data(),
+                                         whole.size(), &size),
+              LIBDEFLATE_SUCCESS);
+    EXPECT_EQ(whole, text);
+    // Plain for who does not ask, for parts, and for what is packed already.
+    for (const char* coding : {"identity", "gzip;q=0", "gzip;q=0.0, *", "br", ""}) {
+        const auto plain = client_->Get("/large.glb", {{"Accept-Encoding", coding}});
+        EXPECT_FALSE(plain->has_header("Content-Encoding")) << coding;
+        EXPECT_EQ(plain->body, text) << coding;
+    }
+    const auto part = client_->Get("/large.glb", {{"Accept-Encoding", "gzip"}, {"Range", "bytes=10-19"}});
+    EXPECT_EQ(part->status, 206);
+    EXPECT_EQ(part->body, "aaaaaaaaaa");
+    EXPECT_FALSE(client_->Get("/light/page.png", {{"Accept-Encoding", "gzip"}})->has_header("Content-Encoding"));
+    // A file that changed is packed anew.
+    put(root_ / "large.glb", std::string(50000, 'b'));
+    const auto changed = client_->Get("/large.glb", {{"Accept-Encoding", "*"}});
+    EXPECT_EQ(libdeflate_gzip_decompress(decompressor.get(), changed->body.data(), changed->body.size(), whole.data(),
+                                         whole.size(), &size),
+              LIBDEFLATE_SUCCESS);
+    EXPECT_EQ(whole.substr(0, size), std::string(50000, 'b'));
+}
+
 TEST_F(WebServerTest, WhatIsNotThereIs404InWords) {
     const auto missing = client_->Get("/light/none.png");
     EXPECT_EQ(missing->status, 404);
@@ -112,7 +151,8 @@ TEST_F(WebServerTest, WhatIsNotThereIs404InWords) {
 
 TEST_F(WebServerTest, NoWayLeadsOutOfTheFolder) {
     for (const char* path : {"/../secret.txt", "/..%2fsecret.txt", "/%2e%2e/secret.txt", "/light/../../secret.txt",
-                             "//secret.txt", "/out.txt", "/up/secret.txt", "/city.glb%00.png"}) {
+                             "//secret.txt", "/out.txt", "/%252e%252e/secret.txt", "/..%5csecret.txt",
+                             "/light%2f..%2f..%2fsecret.txt", "/up/secret.txt", "/city.glb%00.png"}) {
         const auto answer = client_->Get(path);
         ASSERT_TRUE(answer) << path;
         EXPECT_GE(answer->status, 400) << path;

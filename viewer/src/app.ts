@@ -82,6 +82,7 @@ export class App {
         mode: (mode) => this.setMode(mode),
         view: (index) => this.showView(index),
         ev: (ev) => this.setEv(ev),
+        copyLink: () => void this.copyLink(),
         air: (isSeen) => this.setAir(isSeen),
         part: (part, isOn) => this.switchPart(part, isOn),
       },
@@ -219,14 +220,29 @@ export class App {
     this.panel?.showSun(sun.shape === 'none' ? text.noSun : text.sun(azimuth, sun.elevation_deg, luminance(sun.normal_illuminance_klx)));
   }
 
+  /** The part of the address that restores what is seen now. */
+  private link(): string {
+    const { viewer } = this;
+    return formatViewState({ ...viewer.view, mode: viewer.mode, picture: viewer.picture, instant: viewer.instant, ev: viewer.ev, air: viewer.air, off: viewer.off });
+  }
+
+  private async copyLink(): Promise<void> {
+    const address = new URL(this.link(), location.href).href;
+    history.replaceState(null, '', address);
+    try {
+      await navigator.clipboard.writeText(address);
+      this.tell(text.linkCopied);
+    } catch {
+      this.tell(text.linkNotCopied); // no clipboard over plain http, or the user forbade it
+    }
+  }
+
   /** Writes the link at most a few times a second: browsers refuse more. */
   private viewChanged(): void {
     if (this.viewer.instant < 0) return;
     this.linkTimer ??= window.setTimeout(() => {
       this.linkTimer = null;
-      const { viewer } = this;
-      const link = formatViewState({ ...viewer.view, mode: viewer.mode, picture: viewer.picture, instant: viewer.instant, ev: viewer.ev, air: viewer.air, off: viewer.off });
-      history.replaceState(null, '', link);
+      history.replaceState(null, '', this.link());
     }, linkIntervalMs);
   }
 

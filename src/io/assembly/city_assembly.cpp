@@ -7,7 +7,7 @@
 
 #include "base/hash_rng.h"
 #include "city/families.h"
-#include "city/finding_codes.h"
+#include "city/georeference.h"
 #include "city/repair.h"
 
 namespace skybake::io {
@@ -89,11 +89,7 @@ void CityAssembly::finish(const FileFacts& facts) {
     std::stable_sort(city_.lods.begin(), city_.lods.end(), [](const std::string& a, const std::string& b) {
         return std::strtod(a.c_str(), nullptr) < std::strtod(b.c_str(), nullptr);
     });
-    if (!city_.files.empty() && !facts.crs.empty() && !city_.crs.empty() && facts.crs != city_.crs) {
-        findings_.add(make_finding(
-            "SB306", name_,
-            fmt::format("names '{}', the files before it '{}'; taken as one system.", facts.crs, city_.crs)));
-    }
+    if (!facts.crs.empty() && !city_.crs.empty()) bring_into_system(city_, first_object_, facts.crs, name_, findings_);
     if (city_.crs.empty()) city_.crs = facts.crs;
     if (facts.stated_extent) {
         if (!city_.stated_extent) city_.stated_extent = Box3d();

@@ -16,14 +16,39 @@
 
 namespace skybake::io {
 
+enum class UpAxis : std::uint8_t { y, z };
+
+/// Where a mesh lies whose file says nothing of a place: turned to z up, then moved by `origin`, metres.
+struct MeshPlacement {
+    std::optional<UpAxis> up{};  // without one the custom of its format: z in OBJ, y in glTF
+    Vec3d origin{0.0};
+};
+
+/// What a raster of heights shows: bare ground, or all that stands on it, too.
+enum class RasterContent : std::uint8_t { terrain, surface };
+
+struct RasterOptions {
+    RasterContent content = RasterContent::terrain;
+    double max_error_m = 0.1;  // of the triangles against every height of the raster, up or down; 0 keeps every height
+};
+
+struct FootprintOptions {
+    std::string height_field{};  // attribute that holds the height above ground in metres; empty: the known names
+    double storey_m = 3.0;       // where only storeys are told
+};
+
 struct ReadOptions {
     /// The wanted LoD as "2.2", "1" …; without one the highest that each object offers.
     std::optional<std::string> lod;
+    MeshPlacement placement{};
+    RasterOptions raster{};
+    FootprintOptions footprints{};
 };
 
 struct ReadFile {
     std::uint64_t bytes = 0;
-    std::uint64_t content_hash = 0;  // FNV-1a of the bytes: tells a changed input, guards against no forger
+    std::uint64_t content_hash = 0;           // FNV-1a of the bytes: tells a changed input, guards against no forger
+    std::vector<std::string> above_ground{};  // ids of objects whose heights count from the ground below them
 };
 
 /// FNV-1a of bytes that come in pieces.

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "base/error.h"
+#include "io/assembly/city_assembly.h"
 
 namespace skybake::io {
 
@@ -35,21 +36,27 @@ std::string format_of(std::string_view head) {
         Magic{"LASF", "a LAS point cloud"},
         Magic{"ply", "a PLY mesh"},
         Magic{"LOCATION,", "EnergyPlus weather (EPW)"},
-        Magic{"II*", "a TIFF raster"},
-        Magic{"MM", "a TIFF raster"},
+        Magic{std::string_view("II*\0", 4), "a TIFF raster"},
+        Magic{std::string_view("MM\0*", 4), "a TIFF raster"},
+        Magic{std::string_view("II+\0", 4), "a TIFF raster"},  // BigTIFF
+        Magic{std::string_view("MM\0+", 4), "a TIFF raster"},
         Magic{"\x89PNG", "a PNG image"},
         Magic{"\xff\xd8\xff", "a JPEG image"},
         Magic{"%PDF", "a PDF document"},
         Magic{"fcb", "FlatCityBuf"},
-        Magic{"SQLite format 3", "an SQLite database (GeoPackage, 3DCityDB)"},
+        Magic{std::string_view("\0\0\x27\x0a", 4), "an ESRI shapefile"},
         Magic{"ncols", "an ESRI ASCII grid"},
         Magic{"solid ", "an STL mesh"},
     };
     for (const Magic& magic : kMagic) {
         if (head.substr(0, magic.bytes.size()) == magic.bytes) return std::string(magic.name);
     }
+    // Application id of a GeoPackage, at a fixed place of the database's head (OGC 12-128r18, requirement 2).
+    if (head.substr(0, 15) == "SQLite format 3")
+        return head.size() > 72 && head.substr(68, 3) == "GPK" ? "a GeoPackage" : "an SQLite database";
     if (head.substr(0, 3) == "\xEF\xBB\xBF") head.remove_prefix(3);
-    if (head.substr(0, 3) == std::string_view("\xFF\xFE<", 3) || head.substr(0, 4) == std::string_view("\xFE\xFF\0<", 4))
+    if (head.substr(0, 3) == std::string_view("\xFF\xFE<", 3) ||
+        head.substr(0, 4) == std::string_view("\xFE\xFF\0<", 4))
         return "XML";  // UTF-16
     const std::size_t first = head.find_first_not_of(" \t\r\n");
     if (first == std::string_view::npos) return "";
@@ -66,8 +73,9 @@ std::string format_of(std::string_view head) {
     if (head[0] == '{') {
         if (contains("\"asset\"") && !contains("CityJSON"))
             return contains("geometricError") ? "a 3D Tiles tileset" : "glTF";
-        if (contains("FeatureCollection")) return "GeoJSON";
+        if (contains("\"FeatureCollection\"") || contains("\"Feature\"")) return "GeoJSON";
     }
+    if (head[0] != '{' && head[0] != '[') return "a file of unknown format";
     return "";
 }
 
@@ -84,6 +92,18 @@ std::uintmax_t checked_file_size(const std::filesystem::path& path) {
         throw InputError(fmt::format("{}: is no regular file; write it to the disk first.", path.string()));
     }
     return std::filesystem::file_size(path);
+}
+
+std::uint64_t hash_of_file(const std::filesystem::path& path) {
+    std::ifstream in(path, std::ios::binary);
+    if (!in) throw InputError(fmt::format("{}: cannot be opened for reading.", path.string()));
+    ContentHash hash;
+    std::string piece(std::size_t{1} << 20, '\0');
+    while (in) {
+        in.read(piece.data(), static_cast<std::streamsize>(piece.size()));
+        hash.add(std::string_view(piece).substr(0, static_cast<std::size_t>(in.gcount())));
+    }
+    return hash.value();
 }
 
 }  // namespace skybake::io

@@ -9,27 +9,33 @@
 
 namespace skybake::io {
 
+std::optional<std::filesystem::path> path_below(const std::filesystem::path& folder, std::string_view uri) {
+    std::string relative(uri);
+    std::replace(relative.begin(), relative.end(), '\\', '/');
+    const std::filesystem::path path = std::filesystem::path(relative).lexically_normal();
+    if (path.is_absolute() || (!path.empty() && *path.begin() == "..")) return std::nullopt;
+    return folder / path;
+}
+
 void find_image(Texture& texture, const std::filesystem::path& folder, const std::string& where, FindingLog& findings) {
     texture.is_missing = true;
-    std::string relative = texture.uri;
-    std::replace(relative.begin(), relative.end(), '\\', '/');
-    if (relative.find("://") != std::string::npos) {
+    if (texture.uri.find("://") != std::string::npos) {
         findings.add(
             make_finding("SB401", where, fmt::format("image '{}' is remote and is not fetched.", texture.uri)));
         return;
     }
-    const std::filesystem::path path = std::filesystem::path(relative).lexically_normal();
-    if (path.is_absolute() || (!path.empty() && *path.begin() == "..")) {
+    const std::optional<std::filesystem::path> path = path_below(folder, texture.uri);
+    if (!path) {
         findings.add(make_finding(
             "SB402", where, fmt::format("image '{}' lies outside the folder of the city file; refused.", texture.uri)));
         return;
     }
     std::error_code error;
-    if (relative.empty() || !std::filesystem::is_regular_file(folder / path, error)) {
+    if (texture.uri.empty() || !std::filesystem::is_regular_file(*path, error)) {
         findings.add(make_finding("SB401", where, fmt::format("image '{}' is missing.", texture.uri)));
         return;
     }
-    texture.path = (folder / path).string();
+    texture.path = path->string();
     texture.is_missing = false;
 }
 

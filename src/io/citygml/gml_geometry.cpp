@@ -12,6 +12,7 @@
 #include "base/hash_rng.h"
 #include "city/combine.h"
 #include "city/finding_codes.h"
+#include "io/assembly/surface_builder.h"
 #include "io/citygml/gml_numbers.h"
 
 namespace skybake::io {
@@ -110,17 +111,10 @@ class GeometryBuilder {
         : context_(context), types_(types), findings_(findings) {}
 
     void begin_shell(Shell::Kind kind) {
-        Shell shell;
-        shell.kind = kind;
-        shell.surface_begin = static_cast<std::uint32_t>(geometry_.surfaces.size());
-        geometry_.shells.push_back(shell);
+        surfaces_.begin_shell(kind);
         in_shell_.clear();
     }
-    void end_shell() {
-        Shell& shell = geometry_.shells.back();
-        shell.surface_end = static_cast<std::uint32_t>(geometry_.surfaces.size());
-        if (shell.surface_end == shell.surface_begin) geometry_.shells.pop_back();
-    }
+    void end_shell() { surfaces_.end_shell(); }
 
     /// Solids, and nothing else.
     void read_solids(XmlElement e, State state) {
@@ -173,13 +167,7 @@ class GeometryBuilder {
         }
     }
 
-    Geometry finish() {
-        if (has_texture_) {
-            geometry_.corner_uv = std::move(uvs_);
-            geometry_.corner_uv.resize(geometry_.corners.size(), Vec2f(0.0f));
-        }
-        return std::move(geometry_);
-    }
+    Geometry finish() { return surfaces_.finish(); }
     const PolygonSet& used() const { return used_; }
     void number_from(std::uint32_t source_index) { source_index_ = source_index; }
     std::uint32_t next_number() const { return source_index_; }
@@ -223,58 +211,47 @@ class GeometryBuilder {
         if (known && (known->count(key) > 0 || used_.count(key) > 0)) return;
         used_.insert(key);
         const std::uint32_t number = source_index_++;
-        const std::size_t corners_before = geometry_.corners.size();
-        const std::size_t rings_before = geometry_.ring_first.size();
+        surfaces_.begin_surface();
         bool is_good = true;
         std::vector<RingPlace> rings;
         e.for_each_child([&](XmlElement p) {
             const bool is_outer = p.name() == "exterior" || p.name() == "outerBoundaryIs";
             if (!is_good || (!is_outer && p.name() != "interior" && p.name() != "innerBoundaryIs")) return;
-            XmlElement ring = p.first_child();
-            if (!ring && !p.attribute("href").empty()) ring = context_.resolve(p.attribute("href"), p, findings_);
-            const std::optional<std::size_t> count = ring ? read_ring(ring, state) : std::optional<std::size_t>(0);
-            if (!count) {
-                is_good = false;
-                return;
-            }
-            if (*count < 3) {
-                findings_.add(make_finding(
-                    "SB204", context_.place(e),
-                    fmt::format("{} has {} corners; left out.", is_outer ? "outer ring" : "hole", *count)));
-                geometry_.corners.resize(geometry_.ring_first.back());
-                if (is_outer) is_good = false;
-                return;
-            }
-            if (is_outer == (geometry_.ring_first.size() != rings_before)) {
+            if (is_outer != rings.empty()) {
                 findings_.add(make_finding("SB101", context_.place(e),
                                            is_outer ? "polygon has two outer rings; left out."
                                                     : "a hole comes before the outer ring; left out."));
                 is_good = false;
                 return;
             }
-            rings.push_back({ring.attribute("id"), geometry_.ring_first.back(), *count, stated_});
-            geometry_.ring_first.push_back(static_cast<std::uint32_t>(geometry_.corners.size()));
+            XmlElement ring = p.first_child();
+            if (!ring && !p.attribute("href").empty()) ring = context_.resolve(p.attribute("href"), p, findings_);
+            const std::size_t first = surfaces_.geometry.corners.size();
+            is_good = !ring || read_ring(ring, state);
+            if (!is_good) return;
+            const std::size_t count = surfaces_.close_ring();
+            if (count >= 3) {
+                rings.push_back({ring.attribute("id"), first, count, stated_});
+                return;
+            }
+            findings_.add(short_ring(context_.place(e), is_outer, count));
+            is_good = !is_outer;
         });
-        if (is_good && geometry_.ring_first.size() == rings_before) {
+        if (is_good && rings.empty()) {
             findings_.add(make_finding("SB204", context_.place(e), "surface has no ring; left out."));
             is_good = false;
         }
         if (!is_good) {
-            geometry_.corners.resize(corners_before);
-            geometry_.ring_first.resize(rings_before);
+            surfaces_.drop_surface();
             return;
         }
-        Surface surface;
-        surface.ring_begin = static_cast<std::uint32_t>(rings_before - 1);
-        surface.ring_end = static_cast<std::uint32_t>(geometry_.ring_first.size() - 1);
-        surface.source_index = number;
+        Surface& surface = surfaces_.end_surface(number);
         surface.type = state.type;
         if (const auto found = types_.find(key); surface.type == SurfaceType::unknown && found != types_.end())
             surface.type = found->second;
         surface.material = state.material;
-        set_texture(surface, e, state, rings);
-        if (state.is_reversed) reverse(surface);
-        geometry_.surfaces.push_back(surface);
+        set_texture(e, state, rings);
+        if (state.is_reversed) surfaces_.reverse_surface();
     }
 
     struct RingPlace {
@@ -284,36 +261,32 @@ class GeometryBuilder {
         std::size_t stated = 0;  // of positions in the file: the first one comes again at the end, in some files twice
     };
 
-    /// Appends the ring's corners and tells their number, without a repeated last one; none, with a finding, when it
-    /// holds something else than positions.
-    std::optional<std::size_t> read_ring(XmlElement ring, const State& state) {
+    /// Appends the ring's positions as corners; false, with a finding, when it holds something else.
+    bool read_ring(XmlElement ring, const State& state) {
         numbers_.clear();
         State inner = state;
         if (!read_positions(ring, inner, numbers_)) {
             findings_.add(make_finding("SB101", context_.place(ring),
                                        "its positions are no list of numbers; the surface is left out."));
-            return std::nullopt;
+            return false;
         }
         const auto dimension = static_cast<std::size_t>(inner.dimension);
         if (numbers_.size() % dimension != 0) {
             findings_.add(make_finding("SB101", context_.place(ring),
                                        fmt::format("{} numbers are no whole positions of {}; the surface is left out.",
                                                    numbers_.size(), dimension)));
-            return std::nullopt;
+            return false;
         }
         stated_ = numbers_.size() / dimension;
-        const std::size_t first = geometry_.corners.size();
+        std::vector<Vec3d>& vertices = surfaces_.geometry.vertices;
         for (std::size_t i = 0; i + dimension <= numbers_.size(); i += dimension) {
             Vec3d p(numbers_[i], numbers_[i + 1], dimension == 3 ? numbers_[i + 2] : 0.0);
             if (state.placement) p = (*state.placement)(p);
-            const auto [entry, is_new] =
-                vertices_.try_emplace(p, static_cast<std::uint32_t>(geometry_.vertices.size()));
-            if (is_new) geometry_.vertices.push_back(p);
-            geometry_.corners.push_back(entry->second);
+            const auto [entry, is_new] = vertices_.try_emplace(p, static_cast<std::uint32_t>(vertices.size()));
+            if (is_new) vertices.push_back(p);
+            surfaces_.add_corner(entry->second);
         }
-        while (geometry_.corners.size() > first + 1 && geometry_.corners.back() == geometry_.corners[first])
-            geometry_.corners.pop_back();
-        return geometry_.corners.size() - first;
+        return true;
     }
 
     /// The numbers of all positions below `e`, in order. `state` takes the dimension that is stated there.
@@ -345,7 +318,7 @@ class GeometryBuilder {
         return is_good;
     }
 
-    void set_texture(Surface& surface, XmlElement e, const State& state, const std::vector<RingPlace>& rings) {
+    void set_texture(XmlElement e, const State& state, const std::vector<RingPlace>& rings) {
         const auto misfit = [&](const std::string& what) {
             findings_.add(make_finding("SB403", context_.place(e), what + "; the surface is taken without texture."));
         };
@@ -363,12 +336,13 @@ class GeometryBuilder {
                 const std::span<const Vec2f> of_ring = context_.appearance->uvs(*texture);
                 uvs.insert(uvs.end(), of_ring.begin(), of_ring.begin() + static_cast<std::ptrdiff_t>(ring.count));
             }
-            surface.texture = outer->texture;
+            surfaces_.set_texture(outer->texture, uvs);
         } else if (state.projected) {
             const ProjectedTexture& texture = context_.appearance->projected(*state.projected);
+            const Geometry& geometry = surfaces_.geometry;
             const std::array<double, 12>& m = texture.m;
-            for (std::size_t i = rings[0].first; i < geometry_.corners.size(); ++i) {
-                const Vec3d& p = geometry_.vertices[geometry_.corners[i]];
+            for (std::size_t i = rings[0].first; i < geometry.corners.size(); ++i) {
+                const Vec3d& p = geometry.vertices[geometry.corners[i]];
                 const auto row = [&](std::size_t r) {
                     return m[4 * r] * p.x + m[4 * r + 1] * p.y + m[4 * r + 2] * p.z + m[4 * r + 3];
                 };
@@ -376,29 +350,14 @@ class GeometryBuilder {
                 if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) return misfit("its projection has no finite place");
                 uvs.emplace_back(static_cast<float>(uv.x), static_cast<float>(uv.y));
             }
-            surface.texture = texture.texture;
-        } else {
-            return;
-        }
-        uvs_.resize(rings[0].first, Vec2f(0.0f));
-        uvs_.insert(uvs_.end(), uvs.begin(), uvs.end());
-        has_texture_ = true;
-    }
-
-    void reverse(const Surface& surface) {
-        for (std::uint32_t r = surface.ring_begin; r < surface.ring_end; ++r) {
-            const auto begin = static_cast<std::ptrdiff_t>(geometry_.ring_first[r]);
-            const auto end = static_cast<std::ptrdiff_t>(geometry_.ring_first[r + 1]);
-            std::reverse(geometry_.corners.begin() + begin, geometry_.corners.begin() + end);
-            if (surface.texture) std::reverse(uvs_.begin() + begin, uvs_.begin() + end);
+            surfaces_.set_texture(texture.texture, uvs);
         }
     }
 
     const GmlContext& context_;
     const PolygonTypes& types_;
     FindingLog& findings_;
-    Geometry geometry_;
-    std::vector<Vec2f> uvs_;
+    SurfaceBuilder surfaces_;
     std::vector<double> numbers_;
     std::unordered_map<Vec3d, std::uint32_t, PositionHash, SamePosition> vertices_;
     PolygonSet used_;
@@ -406,7 +365,6 @@ class GeometryBuilder {
     PolygonSet in_shell_;     // sets of surfaces that were read in this shell
     std::size_t stated_ = 0;  // positions of the ring read last
     std::uint32_t source_index_ = 0;
-    bool has_texture_ = false;
 };
 
 /// Notes the type of each polygon that a thematic surface holds or names.

@@ -64,8 +64,8 @@ std::string system_key(std::string_view name) {
 /// The first time through the file: root, reference systems, extent, appearances, and references out of objects.
 class Survey final : public XmlVisitor {
   public:
-    Survey(const std::filesystem::path& path, const std::string& name, GmlAppearance& appearance, FindingLog& findings)
-        : path_(path), name_(name), appearance_(appearance), findings_(findings) {}
+    Survey(const std::filesystem::path& path, GmlAppearance& appearance, FindingLog& findings)
+        : path_(path), appearance_(appearance), findings_(findings) {}
 
     std::vector<std::string> systems;  // in order; the first one counts
     std::optional<Box3d> stated_extent;
@@ -149,7 +149,6 @@ class Survey final : public XmlVisitor {
     }
 
     const std::filesystem::path& path_;
-    const std::string& name_;
     GmlAppearance& appearance_;
     FindingLog& findings_;
     XmlNames names_;
@@ -273,7 +272,7 @@ class FileReader {
         progress_.begin("read " + assembly_.name(), std::max<std::uint64_t>(2 * file.bytes, 1));
         const auto advance = [&](std::string_view bytes) { progress_.advance(bytes.size()); };
         ContentHash hash;
-        Survey survey(path_, assembly_.name(), appearance_, findings_);
+        Survey survey(path_, appearance_, findings_);
         scan_xml(path_, survey, progress_, [&](std::string_view bytes) {
             hash.add(bytes);
             advance(bytes);

@@ -8,6 +8,7 @@
 
 #include "city/finding_codes.h"
 #include "io/assembly/city_terms.h"
+#include "io/assembly/surface_builder.h"
 
 namespace skybake::io {
 namespace {
@@ -115,20 +116,17 @@ class GeometryBuilder {
     ReadGeometry finish() {
         ReadGeometry result;
         result.has_semantics = has_semantics_;
-        if (has_texture_) {
-            geometry_.corner_uv = std::move(uvs_);
-            geometry_.corner_uv.resize(geometry_.corners.size(), Vec2f(0.0f));
-        }
+        result.geometry = surfaces_.finish();
+        Geometry& geometry = result.geometry;
         // Vertices in order of their number in the file: the same for every order of surfaces.
-        std::vector<std::uint32_t> used(geometry_.corners);
+        std::vector<std::uint32_t> used(geometry.corners);
         std::sort(used.begin(), used.end());
         used.erase(std::unique(used.begin(), used.end()), used.end());
-        geometry_.vertices.reserve(used.size());
-        for (const std::uint32_t vertex : used) geometry_.vertices.push_back(context_.vertices[vertex]);
-        for (std::uint32_t& corner : geometry_.corners) {
+        geometry.vertices.reserve(used.size());
+        for (const std::uint32_t vertex : used) geometry.vertices.push_back(context_.vertices[vertex]);
+        for (std::uint32_t& corner : geometry.corners) {
             corner = static_cast<std::uint32_t>(std::lower_bound(used.begin(), used.end(), corner) - used.begin());
         }
-        result.geometry = std::move(geometry_);
         return result;
     }
 
@@ -182,82 +180,65 @@ class GeometryBuilder {
 
     void read_shell(const element& surfaces, const Beside& beside, Shell::Kind kind) {
         if (!surfaces.is_array()) return fault("a shell is no array of surfaces; it is left out.");
-        Shell shell;
-        shell.kind = kind;
-        shell.surface_begin = static_cast<std::uint32_t>(geometry_.surfaces.size());
+        surfaces_.begin_shell(kind);
         for_each(surfaces, beside, [&](const element& surface, const Beside& inner) {
             read_surface(surface, inner);
             ++source_index_;
         });
-        shell.surface_end = static_cast<std::uint32_t>(geometry_.surfaces.size());
-        if (shell.surface_end > shell.surface_begin) geometry_.shells.push_back(shell);
+        surfaces_.end_shell();
     }
 
     void read_surface(const element& rings, const Beside& beside) {
-        const std::size_t corners_before = geometry_.corners.size();
-        const std::size_t rings_before = geometry_.ring_first.size();
+        surfaces_.begin_surface();
         const std::vector<element> items = elements_of(rings);
         bool is_good = rings.is_array();
         if (!is_good) findings_.add(make_finding("SB101", place(), "a surface is no array of rings; it is left out."));
         for (std::size_t i = 0; is_good && i < items.size(); ++i) {
-            const std::optional<std::size_t> count = read_ring(items[i]);
-            if (!count) is_good = false;
-            if (count && *count < 3) {
-                findings_.add(
-                    make_finding("SB204", place(),
-                                 fmt::format("{} has {} corners; left out.", i == 0 ? "outer ring" : "hole", *count)));
-                if (i == 0) is_good = false;
-                geometry_.corners.resize(geometry_.ring_first.back());
-            } else if (count) {
-                geometry_.ring_first.push_back(static_cast<std::uint32_t>(geometry_.corners.size()));
-            }
+            is_good = read_ring(items[i]);
+            if (!is_good) break;
+            const std::size_t count = surfaces_.close_ring();
+            if (count >= 3) continue;
+            findings_.add(short_ring(place(), i == 0, count));
+            is_good = i > 0;
         }
-        if (is_good && geometry_.ring_first.size() == rings_before) {
+        if (is_good && surfaces_.ring_count() == 0) {
             findings_.add(make_finding("SB204", place(), "surface has no ring; left out."));
             is_good = false;
         }
         if (!is_good) {
-            geometry_.corners.resize(corners_before);
-            geometry_.ring_first.resize(rings_before);
+            surfaces_.drop_surface();
             return;
         }
-        Surface surface;
-        surface.ring_begin = static_cast<std::uint32_t>(rings_before - 1);
-        surface.ring_end = static_cast<std::uint32_t>(geometry_.ring_first.size() - 1);
-        surface.source_index = source_index_;
+        Surface& surface = surfaces_.end_surface(source_index_);
         set_semantics(surface, beside.semantics);
         surface.material = beside.material ? material_index(*beside.material) : whole_material_;
         if (beside.texture && !beside.texture->is_null()) set_texture(surface, *beside.texture, items);
-        geometry_.surfaces.push_back(surface);
     }
 
-    /// Appends the corners and tells their number; none, with a finding, when they are unusable.
-    std::optional<std::size_t> read_ring(const element& ring) {
+    /// Appends the corners; false, with a finding, when they are unusable.
+    bool read_ring(const element& ring) {
         simdjson::dom::array array;
         if (ring.get_array().get(array) != simdjson::SUCCESS) {
             findings_.add(
                 make_finding("SB101", place(), "a ring is no array of vertex numbers; the surface is left out."));
-            return std::nullopt;
+            return false;
         }
-        const std::size_t first = geometry_.corners.size();
         for (const element e : array) {
             std::int64_t index = -1;
             if (e.get_int64().get(index) != simdjson::SUCCESS) {
                 findings_.add(make_finding(
                     "SB101", place(), "a ring holds something else than vertex numbers; the surface is left out."));
-                return std::nullopt;
+                return false;
             }
             if (index < 0 || static_cast<std::size_t>(index) >= context_.vertices.size()) {
                 findings_.add(make_finding("SB103", place(),
                                            fmt::format("vertex {} of {} does not exist; the surface is left out.",
                                                        index, context_.vertices.size())));
-                return std::nullopt;
+                return false;
             }
-            geometry_.corners.push_back(static_cast<std::uint32_t>(index));
+            surfaces_.add_corner(static_cast<std::uint32_t>(index));
         }
-        while (geometry_.corners.size() > first + 1 && geometry_.corners.back() == geometry_.corners[first])
-            geometry_.corners.pop_back();
-        return geometry_.corners.size() - first;
+        return true;
     }
 
     void set_semantics(Surface& surface, const Optional& value) {
@@ -301,7 +282,7 @@ class GeometryBuilder {
     }
 
     /// Ring by ring: the image's number, then a texture vertex for each corner; [null] means no texture.
-    void set_texture(Surface& surface, const element& values, const std::vector<element>& rings) {
+    void set_texture(const Surface& surface, const element& values, const std::vector<element>& rings) {
         const CityJsonAppearance& appearance = *context_.appearance;
         const std::vector<element> ring_values = elements_of(values);
         std::vector<Vec2f> uvs;
@@ -330,7 +311,8 @@ class GeometryBuilder {
             const std::size_t ring = surface.ring_begin + r;
             // A hole that was left out shifts the rings behind it; such a surface keeps no texture for certain.
             if (ring >= surface.ring_end) return misfit("a ring was left out");
-            const std::size_t kept = geometry_.ring_first[ring + 1] - geometry_.ring_first[ring];
+            const std::vector<std::uint32_t>& ring_first = surfaces_.geometry.ring_first;
+            const std::size_t kept = ring_first[ring + 1] - ring_first[ring];
             for (std::size_t i = 1; i < items.size(); ++i) {
                 std::uint64_t uv = 0;
                 if (items[i].get_uint64().get(uv) != simdjson::SUCCESS || uv >= appearance.uvs.size() ||
@@ -341,26 +323,20 @@ class GeometryBuilder {
             }
         }
         if (!image) return;
-        const std::size_t first = geometry_.ring_first[surface.ring_begin];
-        const std::size_t count = geometry_.ring_first[surface.ring_end] - first;
+        const std::size_t count = surfaces_.corner_count();
         if (uvs.size() != count)
             return misfit(fmt::format("{} of {} corners have texture vertices", uvs.size(), count));
-        uvs_.resize(first, Vec2f(0.0f));
-        uvs_.insert(uvs_.end(), uvs.begin(), uvs.end());
-        has_texture_ = true;
-        surface.texture = TextureId(*image);
+        surfaces_.set_texture(TextureId(*image), uvs);
     }
 
     const GeometryContext& context_;
     std::string where_;
     FindingLog& findings_;
-    Geometry geometry_;
-    std::vector<Vec2f> uvs_;
+    SurfaceBuilder surfaces_;
     std::vector<SurfaceType> semantic_types_;
     std::optional<MaterialId> whole_material_;
     std::uint32_t source_index_ = 0;
     bool has_semantics_ = false;
-    bool has_texture_ = false;
     bool is_semantics_reported_ = false;
     bool is_material_reported_ = false;
     bool is_texture_reported_ = false;

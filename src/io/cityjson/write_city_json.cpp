@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "base/hash_rng.h"
+#include "io/assembly/city_terms.h"
 #include "io/file/replace_file.h"
 
 namespace skybake::io {
@@ -168,7 +169,9 @@ const char* semantic_name(Semantics semantics, SurfaceType type) {
 }
 
 const char* type_name_of(const CityObject& object) {
-    if (!object.type_name.empty()) return object.type_name.c_str();
+    // Names of other formats and of extensions give way to CityJSON's own.
+    if (const std::optional<ObjectTerm> term = object_term(object.type_name); term && term->type == object.type)
+        return object.type_name.c_str();
     switch (object.type) {
         case ObjectType::building:
             return "Building";

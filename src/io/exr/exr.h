@@ -46,6 +46,8 @@ class ExrReader {
     int width() const;
     int height() const;
     bool has_channel(const std::string& name) const;
+    /// What stands before the last dot of the channels' names, each once, sorted: "sky", "sun".
+    std::vector<std::string> layers() const;
 
     /// Where a channel's samples go: row after row, `stride` 32-bit words from one to the next.
     struct Target {

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <set>
 
 #include "base/check.h"
 #include "base/error.h"
@@ -60,6 +61,12 @@ int ExrReader::height() const {
 }
 bool ExrReader::has_channel(const std::string& name) const {
     return state_->file->header().channels().findChannel(name) != nullptr;
+}
+
+std::vector<std::string> ExrReader::layers() const {
+    std::set<std::string> names;
+    state_->file->header().channels().layers(names);
+    return {names.begin(), names.end()};
 }
 
 void ExrReader::read(std::span<const Target> targets) {

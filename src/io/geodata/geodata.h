@@ -1,4 +1,4 @@
-// Maps of other programs: polygons in, rasters and cells out. The only user of GDAL.
+// Maps of a study: areas in, rasters and cells out, by GDAL.
 #pragma once
 
 #include <filesystem>

@@ -58,9 +58,23 @@ struct EmbeddedImage {
     std::uint64_t size = 0;
 };
 
+const char* mime_type(ImageFormat format) {
+    return format == ImageFormat::png ? "image/png" : "image/jpeg";
+}
+
+/// What tells pictures apart: the file, or the name of embedded content.
+const std::string& name_of_picture(const Texture& texture) {
+    return texture.embedded ? texture.uri : texture.path;
+}
+
 /// The file as it may be embedded; none when it is absent, or neither PNG nor JPEG.
 std::optional<EmbeddedImage> embeddable(const Texture& texture) {
-    if (texture.is_missing || texture.path.empty()) return {};
+    if (texture.is_missing) return {};
+    if (texture.embedded) {
+        const ImageFormat format = image_format(*texture.embedded);
+        if (format == ImageFormat::other) return {};
+        return EmbeddedImage{"", texture.embedded.get(), mime_type(format), texture.embedded->size()};
+    }
     std::array<std::uint8_t, 8> start{};
     std::ifstream stream(texture.path, std::ios::binary);
     stream.read(reinterpret_cast<char*>(start.data()), start.size());
@@ -68,7 +82,7 @@ std::optional<EmbeddedImage> embeddable(const Texture& texture) {
     const std::uintmax_t size = std::filesystem::file_size(texture.path, error);
     const ImageFormat format = image_format(std::span(start).first(static_cast<std::size_t>(stream.gcount())));
     if (error || format == ImageFormat::other) return {};
-    return EmbeddedImage{texture.path, nullptr, format == ImageFormat::png ? "image/png" : "image/jpeg", size};
+    return EmbeddedImage{texture.path, nullptr, mime_type(format), size};
 }
 
 /// Images, samplers, textures and materials of the file, each once.
@@ -118,9 +132,9 @@ class Palette {
     std::optional<std::size_t> albedo_texture(const SceneMaterial& material) {
         if (!material.texture) return {};
         const Texture& texture = scene_.textures[material.texture->index()];
-        const auto [entry, is_new] = texture_of_.try_emplace({texture.path, wrap_number(material.wrap)});
+        const auto [entry, is_new] = texture_of_.try_emplace({name_of_picture(texture), wrap_number(material.wrap)});
         if (!is_new) return entry->second;
-        const auto [image, is_new_image] = image_of_.try_emplace(texture.path);
+        const auto [image, is_new_image] = image_of_.try_emplace(name_of_picture(texture));
         if (is_new_image) {
             if (const std::optional<EmbeddedImage> embedded = embeddable(texture)) {
                 image->second = images.size();

@@ -108,6 +108,11 @@ Image8 read_image(const std::filesystem::path& path, std::uint64_t max_pixels) {
     return decode_image(read_file(path), path.string(), max_pixels);
 }
 
+Image8 read_image(const Texture& texture, std::uint64_t max_pixels) {
+    if (texture.embedded) return decode_image(*texture.embedded, texture.uri, max_pixels);
+    return read_image(std::filesystem::path(texture.path), max_pixels);
+}
+
 void write_png(const std::filesystem::path& path, const Image8& image) {
     write_file(path, encode_png(image));
 }

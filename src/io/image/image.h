@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "city/city_model.h"
+
 namespace skybake::io {
 
 /// Interleaved channels (1 grey, 3 RGB, 4 RGBA), row 0 on top.
@@ -29,6 +31,9 @@ std::vector<std::uint8_t> encode_png(const Image8& image);
 /// becomes RGBA, 16 bit is rounded, CMYK becomes RGB. The values are sRGB-encoded as in the file; a PNG that states
 /// another gamma is converted. Throws InputError for anything else, for files that end early, and above `max_pixels`.
 Image8 read_image(const std::filesystem::path& path, std::uint64_t max_pixels = 1ull << 28);
+
+/// The same for the picture of a texture, be it a file or embedded in the city's own.
+Image8 read_image(const Texture& texture, std::uint64_t max_pixels = 1ull << 28);
 
 /// The same from bytes in memory; `name` is what messages call it.
 Image8 decode_image(std::span<const std::uint8_t> bytes, const std::string& name,

@@ -16,7 +16,7 @@ namespace skybake::io {
 namespace {
 
 constexpr int kRowsAtOnce = 64;
-constexpr std::array<LightPart, 3> kParts = {LightPart::total, LightPart::sun, LightPart::sky};
+constexpr std::array kParts = {LightPart::total, LightPart::sun, LightPart::sky, LightPart::indirect};
 
 struct Sums {
     std::uint64_t texels = 0;
@@ -47,14 +47,14 @@ struct Sums {
     }
 };
 
-using PartSums = std::array<Sums, 3>;
+using PartSums = std::array<Sums, kParts.size()>;
 
 void add(PartSums& sums, const PartSums& more) {
     for (std::size_t k = 0; k < sums.size(); ++k) sums[k].add(more[k]);
 }
 
 PartDeviations deviations_of(const PartSums& sums, std::uint64_t texels_off) {
-    return {sums[0].deviation(), sums[1].deviation(), sums[2].deviation(), texels_off};
+    return {sums[0].deviation(), sums[1].deviation(), sums[2].deviation(), sums[3].deviation(), texels_off};
 }
 
 /// Which texels of a page count, and which chart they belong to.
@@ -129,7 +129,8 @@ class LuminanceReader {
         }
         const std::size_t room = static_cast<std::size_t>(stored.width) * kRowsAtOnce;
         for (std::size_t k = 0; k < kParts.size(); ++k) {
-            pixels_[k].resize(room);
+            pixels_[k].assign(room, Rgb(0.0f));
+            if (kParts[k] == LightPart::indirect && !bake.instants[instant].has_indirect) continue;
             const std::array<std::string, 3> names = channel_names(kParts[k]);
             for (std::size_t c = 0; c < 3; ++c)
                 targets_.push_back({{names[c], ExrType::float32}, &pixels_[k].data()->x + c, 3});
@@ -148,7 +149,7 @@ class LuminanceReader {
   private:
     std::filesystem::path path_;
     ExrReader reader_;
-    std::array<std::vector<Rgb>, 3> pixels_;
+    std::array<std::vector<Rgb>, kParts.size()> pixels_;
     std::vector<ExrReader::Target> targets_;
 };
 
@@ -273,6 +274,13 @@ Image8 difference_picture(const std::vector<float>& difference_lx, const std::ve
         }
     }
     return image;
+}
+
+Image8 leak_picture(const Lightmaps& light, std::size_t instant, std::size_t page, double range_lx) {
+    const LightmapPage& own = light.pages[page];
+    std::vector<std::uint8_t> is_shown(own.state.size());
+    for (std::size_t t = 0; t < is_shown.size(); ++t) is_shown[t] = own.state[t] == TexelState::chart;
+    return difference_picture(light.instants[instant].pages[page].leak, is_shown, own.width, own.height, range_lx);
 }
 
 BakeComparison compare_bakes(const StoredBake& a, const StoredBake& b, const CompareOptions& options,

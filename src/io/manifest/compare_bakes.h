@@ -28,6 +28,7 @@ struct PartDeviations {
     Deviation total;
     Deviation sun;
     Deviation sky;
+    Deviation indirect;            // 0 in a bake without reflected light
     std::uint64_t texels_off = 0;  // whose total is off by more than kOffShare of their instant's mean
 };
 
@@ -77,5 +78,8 @@ BakeComparison compare_bakes(const StoredBake& a, const StoredBake& b, const Com
 /// ticks at each half.
 Image8 difference_picture(const std::vector<float>& difference_lx, const std::vector<std::uint8_t>& is_compared,
                           int width, int height, double range_lx);
+
+/// LightmapLayer::leak as such a picture: red where feelers keep light out, blue where they let more in.
+Image8 leak_picture(const Lightmaps& light, std::size_t instant, std::size_t page, double range_lx);
 
 }  // namespace skybake::io

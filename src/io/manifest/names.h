@@ -34,6 +34,9 @@ inline std::string sun(std::size_t instant, std::size_t page) {
 inline std::string indirect(std::size_t instant, std::size_t page) {
     return fmt::format("light/i{}_p{}_indirect.png", instant, page);
 }
+inline std::string leaks(std::size_t instant, std::size_t page) {
+    return fmt::format("light/i{}_p{}_leaks.png", instant, page);
+}
 inline std::string indirect_scales(std::size_t instant) {
     return fmt::format("light/i{}_indirect_scales.bin", instant);
 }

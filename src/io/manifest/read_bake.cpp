@@ -2,11 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
 #include "base/error.h"
-#include "io/exr/exr.h"
 #include "io/file/replace_file.h"
 #include "io/manifest/names.h"
 
@@ -24,6 +25,45 @@ std::filesystem::path file_in(const std::filesystem::path& folder, const std::st
         throw InputError(
             fmt::format("{}: names the file '{}' outside its folder.", (folder / names::kManifest).string(), uri));
     return folder / relative;
+}
+
+Vec3f vec3_of(const nlohmann::json& json) {
+    return {json.at(0).get<float>(), json.at(1).get<float>(), json.at(2).get<float>()};
+}
+
+/// Sun, sky and exposure of an instant. `name` is the manifest's, for messages.
+void read_daylight(const std::filesystem::path& folder, const nlohmann::json& json, const std::string& name,
+                   StoredInstant& instant) {
+    const nlohmann::json& sun = json.at("sun");
+    const Vec3f direction = vec3_of(sun.at("direction"));
+    if (direction != Vec3f(0.0f)) instant.sun.direction = glm::normalize(direction);  // none: a sky without sun
+    instant.sun.angular_radius_rad =
+        static_cast<float>(radians_from_degrees(sun.at("angular_radius_deg").get<double>()));
+    if (sun.at("shape") != "none") instant.sun.normal_illuminance = 1e3f * vec3_of(sun.at("normal_illuminance_klx"));
+    const nlohmann::json& panorama = json.at("sky").at("panorama");
+    instant.panorama = {panorama.at("width").get<int>(), panorama.at("height").get<int>(),
+                        file_in(folder, panorama.at("uri").get<std::string>())};
+    instant.land.luminance = 1e3f * vec3_of(json.at("sky").at("land_kcd_m2"));
+    if (json.contains("air")) {
+        const nlohmann::json& air = json["air"];
+        const nlohmann::json& airlight = air.at("airlight");
+        StoredAir stored;
+        stored.scattering = {Vec3d(vec3_of(air.at("molecules_per_m"))), Vec3d(vec3_of(air.at("haze_per_m")))};
+        stored.columns = airlight.at("columns").get<int>();
+        stored.rows = airlight.at("rows").get<int>();
+        stored.file = file_in(folder, airlight.at("uri").get<std::string>());
+        if (stored.columns < 1 || stored.rows < 2 || std::max(stored.columns, stored.rows) > kLargestPage)
+            throw InputError(fmt::format("{}: the instant '{}' has impossible air. Bake again.", name, instant.label));
+        instant.air = stored;
+    }
+    instant.exposure_hint = json.at("exposure_hint").get<float>();
+    const bool is_lit = std::isfinite(instant.exposure_hint) && instant.exposure_hint > 0.0f &&
+                        std::isfinite(glm::length(instant.sun.direction)) &&
+                        std::isfinite(glm::length(instant.sun.normal_illuminance));
+    if (!is_lit || instant.panorama.width < 1 || instant.panorama.height < 2 || instant.panorama.width > kLargestPage ||
+        instant.panorama.height > kLargestPage)
+        throw InputError(fmt::format("{}: the instant '{}' has an impossible sun, sky or exposure. Bake again.", name,
+                                     instant.label));
 }
 
 StoredBake from_json(const std::filesystem::path& folder, const nlohmann::json& json) {
@@ -51,14 +91,24 @@ StoredBake from_json(const std::filesystem::path& folder, const nlohmann::json& 
         stored.label = instant.at("label").get<std::string>();
         for (const nlohmann::json& page : instant.at("pages"))
             stored.pages.push_back(file_in(folder, page.at("exr").get<std::string>()));
+        stored.has_indirect = instant.contains("indirect_scales");
+        read_daylight(folder, instant, name, stored);
+        stored.land.height_m = json.at("bounds").at("min").at(2).get<float>();
         if (stored.pages.size() != bake.pages.size()) {
             throw InputError(fmt::format("{}: the instant '{}' has {} pages, and the atlas {}.", name, stored.label,
                                          stored.pages.size(), bake.pages.size()));
         }
         bake.instants.push_back(std::move(stored));
     }
+    for (const nlohmann::json& view : json.at("views")) {
+        bake.views.push_back(
+            {view.at("name").get<std::string>(), vec3_of(view.at("position")), vec3_of(view.at("target"))});
+    }
+    bake.convergence_rad = radians_from_degrees(json.at("convergence_deg").get<double>());
     return bake;
 }
+
+}  // namespace
 
 void check_size(const ExrReader& reader, const std::filesystem::path& path, const StoredPage& page) {
     if (reader.width() == page.width && reader.height() == page.height) return;
@@ -66,10 +116,9 @@ void check_size(const ExrReader& reader, const std::filesystem::path& path, cons
                                  reader.width(), reader.height(), page.width, page.height));
 }
 
-}  // namespace
-
 std::array<std::string, 3> channel_names(LightPart part) {
-    const std::string layer = part == LightPart::total ? "" : part == LightPart::sun ? "sun." : "sky.";
+    static constexpr std::array kLayers{"", "sun.", "sky.", "indirect."};
+    const std::string layer = kLayers[static_cast<std::size_t>(part)];
     return {layer + "R", layer + "G", layer + "B"};
 }
 
@@ -126,8 +175,11 @@ StoredLight read_light(const StoredBake& bake, std::size_t instant, std::size_t 
     check_size(reader, path, stored);
     StoredLight light;
     std::vector<ExrReader::Target> targets;
-    for (const auto& [part, pixels] :
-         {std::pair{LightPart::total, &light.total}, {LightPart::sun, &light.sun}, {LightPart::sky, &light.sky}}) {
+    for (const auto& [part, pixels] : {std::pair{LightPart::total, &light.total},
+                                       {LightPart::sun, &light.sun},
+                                       {LightPart::sky, &light.sky},
+                                       {LightPart::indirect, &light.indirect}}) {
+        if (part == LightPart::indirect && !bake.instants[instant].has_indirect) continue;
         pixels->resize(static_cast<std::size_t>(stored.width) * static_cast<std::size_t>(stored.height));
         const std::array<std::string, 3> names = channel_names(part);
         for (std::size_t c = 0; c < 3; ++c)

@@ -18,6 +18,7 @@
 #include "base/error.h"
 #include "io/exr/exr.h"
 #include "io/file/replace_file.h"
+#include "io/manifest/compare_bakes.h"
 #include "io/manifest/names.h"
 #include "io/manifest/sha256.h"
 #include "io/manifest/web_pages.h"
@@ -76,6 +77,14 @@ void write_light(const std::filesystem::path& path, const Lightmaps& light, std:
     }
     const std::size_t width = static_cast<std::size_t>(light.pages[page].width);
     const LightmapLayer& layer = light.instants[instant].pages[page];
+    std::vector<const std::vector<float>*> extras;
+    for (const auto& [name, values] :
+         {std::pair("indirect.error", &layer.indirect_error), {"indirect.leak", &layer.leak}}) {
+        if (values->empty()) continue;
+        channels.push_back({name, ExrType::float32});
+        extras.push_back(values);
+    }
+    const std::size_t colors = 3 * layers.size();
     const Rgb beam = light.instants[instant].daylight.sun.normal_illuminance;
     write_exr(path, light.pages[page].width, light.pages[page].height, channels,
               [&](int row, std::span<std::uint32_t> samples) {
@@ -92,6 +101,8 @@ void write_light(const std::filesystem::path& path, const Lightmaps& light, std:
                           if (!layer.indirect.empty())
                               samples[9 * width + at] = std::bit_cast<std::uint32_t>(layer.indirect[first + x][c]);
                       }
+                      for (std::size_t k = 0; k < extras.size(); ++k)
+                          samples[(colors + k) * width + x] = std::bit_cast<std::uint32_t>((*extras[k])[first + x]);
                   }
               },
               {{"skybake.unit", "lx per channel, linear Rec. 709"},
@@ -145,7 +156,7 @@ void clear_old_bake(const std::filesystem::path& folder) {
     remove(folder / names::kCity);
     static const std::regex ours(
         "(p[0-9]+_(base\\.exr|svf\\.png|lamps\\.png)|lamp_scales\\.bin|i[0-9]+_(p[0-9]+(\\.exr|_sky\\.png|_sun\\.png|_"
-        "indirect\\.png)|scales\\.bin|"
+        "indirect\\.png|_leaks\\.png)|scales\\.bin|"
         "indirect_scales\\.bin|sky\\.bin|air\\.bin))(\\."
         "part)?");
     std::vector<std::filesystem::path> old;
@@ -192,6 +203,21 @@ Json sun_json(const SunBeam& sun) {
             {"angular_radius_deg", degrees_from_radians(static_cast<double>(sun.angular_radius_rad))}};
 }
 
+Json to_json(const LeakReport& leaks) {
+    const LeakReport::Place& w = leaks.worst;
+    return {{"texels", leaks.texels},
+            {"area_m2", leaks.area_m2},
+            {"lumen", leaks.lumen},
+            {"picture_range_lx", leaks.picture_range_lx},
+            {"worst",
+             {{"instant", w.instant},
+              {"page", w.page},
+              {"column", w.column},
+              {"row", w.row},
+              {"leak_lx", w.leak_lx},
+              {"total_lx", w.total_lx}}}};
+}
+
 /// The figures that come out the same whenever the bake is repeated.
 Json report_json(const BakeReport& r) {
     Json json = {{"buildings", r.buildings},
@@ -212,8 +238,12 @@ Json report_json(const BakeReport& r) {
         json["lamps"] = r.lamps;
         json["lamps_refined_fraction"] = r.lamps_refined_fraction;
     }
-    if (r.photons.emitted > 0.0) {
+    if (r.indirect_evaluated_fraction > 0.0) {
         json["indirect_evaluated_fraction"] = r.indirect_evaluated_fraction;
+        json["indirect_lx"] = {{"mean", r.indirect.mean_lx}, {"standard_error", r.indirect.error_lx}};
+    }
+    if (r.leaks) json["leaks"] = to_json(*r.leaks);
+    if (r.photons.emitted > 0.0) {
         json["photons_stored"] = r.photons.stored;
         json["photon_lumen"] = {{"emitted", r.photons.emitted},
                                 {"absorbed", r.photons.absorbed},
@@ -445,6 +475,13 @@ WrittenBake write_bake(const std::filesystem::path& folder, const BakeOutput& ou
         for (std::size_t i = 0; i < instant_count; ++i) {
             files.insert(files.end(), {names::light(i, p), names::sky(i, p), names::sun(i, p)});
             if (has_indirect(light)) files.push_back(names::indirect(i, p));
+            if (output.report.leaks) {
+                files.push_back(names::leaks(i, p));
+                jobs.push_back({1, [&, i, p] {
+                                    write_png(folder / names::leaks(i, p),
+                                              leak_picture(light, i, p, output.report.leaks->picture_range_lx));
+                                }});
+            }
             jobs.push_back({4, [&, i, p] { write_light(folder / names::light(i, p), light, i, p); }});
         }
     }

@@ -15,17 +15,11 @@
 #include "base/progress.h"
 #include "base/site.h"
 #include "io/gltf/glb.h"
+#include "io/manifest/bake_view.h"
 #include "scene/scene.h"
 #include "sky/aerial_perspective.h"
 
 namespace skybake::io {
-
-/// A place to look from; local metres, z up.
-struct BakeView {
-    std::string name;
-    Vec3f position{0.0f};
-    Vec3f target{0.0f};
-};
 
 /// What the manifest says about an instant beyond its daylight.
 struct InstantDescription {

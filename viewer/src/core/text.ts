@@ -36,6 +36,10 @@ export const text = {
   exposureValue: (ev: number, total: number) =>
     `${ev > 0 ? '+' : ev < 0 ? '−' : '±'}${Math.abs(ev).toFixed(1)} EV · white at ${formatLuminance(1 / total)}`,
   exposureUnused: 'not used: no light in this picture',
+  copyLink: 'Copy link',
+  copyLinkHint: 'Copies the address of this very view, for others and for “skybake render --camera”',
+  linkCopied: 'The link to this view is copied.',
+  linkNotCopied: 'This browser lets no page copy here: take the link from the address bar.',
   air: 'Air',
   airSwitch: 'Haze over distance',
   airHint: 'What the air between you and the city takes and adds; off: as in a vacuum',

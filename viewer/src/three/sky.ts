@@ -45,9 +45,9 @@ void main() {
   // Scene: x east, y up, z south. Azimuth runs clockwise from grid north; row 0 of the panorama is the zenith.
   float elevation = asin(clamp(direction.y, -1.0, 1.0));
   float azimuth = atan(direction.x, -direction.z);
-  // The lowest row's centre stands half a row above the horizon; gradients are taken of the ray, so that the seam at azimuth 0 stays sharp.
-  float row = clamp(1.0 - elevation / (0.5 * kPi), 0.5 / uPanoramaHeight, 1.0 - 0.5 / uPanoramaHeight);
-  vec3 sky = textureLod(uPanorama, vec2(azimuth / (2.0 * kPi), row), 0.0).rgb;
+  // The first row's centre is the zenith, the last row's the horizon; no gradients, so that the seam at azimuth 0 stays sharp.
+  float row = clamp(1.0 - elevation / (0.5 * kPi), 0.0, 1.0) * (uPanoramaHeight - 1.0) + 0.5;
+  vec3 sky = textureLod(uPanorama, vec2(azimuth / (2.0 * kPi), row / uPanoramaHeight), 0.0).rgb;
 
   // Below the horizon level land goes on as far as the air lets one see; the horizon's edge is as wide as a pixel.
   float pixel = max(length(fwidth(direction)), 1e-5);

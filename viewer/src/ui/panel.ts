@@ -10,6 +10,7 @@ export interface PanelActions {
   mode(mode: Mode): void;
   view(index: number): void;
   ev(ev: number): void;
+  copyLink(): void;
   air(isSeen: boolean): void;
   part(part: LightPart, isOn: boolean): void;
 }
@@ -96,6 +97,8 @@ export class Panel {
     const evReset = element('button', { type: 'button' }, [text.exposureReset]);
     evReset.addEventListener('click', () => actions.ev(0));
 
+    const copyLink = element('button', { type: 'button', title: text.copyLinkHint }, [text.copyLink]);
+    copyLink.addEventListener('click', () => actions.copyLink());
     this.airSwitch = element('input', { type: 'checkbox', id: 'air', title: `${text.airHint} (F)` });
     this.airSwitch.addEventListener('change', () => actions.air(this.airSwitch.checked));
     this.airLabel = element('span', { class: 'label' });
@@ -116,7 +119,7 @@ export class Panel {
       element('fieldset', { class: 'field' }, [element('legend', {}, [text.picture]), pictureGroup]),
       element('fieldset', { class: 'field' }, [element('legend', {}, [text.parts]), partGroup]),
       element('fieldset', { class: 'field' }, [element('legend', {}, [text.navigation]), modeGroup]),
-      element('div', { class: 'field' }, [element('label', { for: 'view' }, [text.views]), this.viewSelect]),
+      element('div', { class: 'field' }, [element('label', { for: 'view' }, [text.views]), this.viewSelect, copyLink]),
       element('div', { class: 'field' }, [
         element('label', { for: 'ev' }, [text.exposure]),
         element('div', { class: 'row' }, [this.evSlider, evReset]),

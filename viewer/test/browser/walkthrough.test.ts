@@ -6,7 +6,6 @@ import { fileURLToPath } from 'node:url';
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 import { parseAirlight } from '../../src/core/air';
-import type { TestHook } from '../../src/test_hook';
 import type { LightPart } from '../../src/core/light_parts';
 import { srgbEncode } from '../../src/core/units';
 import { findChromium, launch, openPage } from '../support/chromium';
@@ -14,41 +13,13 @@ import { viewThrough } from '../support/air';
 import { fixtureAir, fixtureBeam, fixtureInstants, fixtureSun, whiteCard, writeFixture } from '../support/fixture';
 import { decodePng, encodePng } from '../support/png';
 import { serve, type Host } from '../support/static_host';
+import { canvas, dist, outFolder, whenReady } from '../support/walkthrough_page';
 
 const here = path.dirname(fileURLToPath(import.meta.url));
-const dist = path.join(here, '../../dist');
 const goldenFolder = path.join(here, '../golden');
-const outFolder = path.join(here, '../out');
 const size = { width: 480, height: 270 };
 const chromium = findChromium();
-const built = fs.existsSync(path.join(dist, 'index.html'));
 if (!chromium) console.warn('browser tests are skipped: no Chromium found (apt-get install chromium, or set SKYBAKE_CHROMIUM)');
-if (!built) throw new Error('viewer/dist is absent: run npm run build first');
-
-declare global {
-  interface Window {
-    skybake?: TestHook;
-  }
-}
-
-async function whenReady(page: Page, url: string): Promise<void> {
-  await page.goto(url);
-  await page.waitForFunction(() => window.skybake !== undefined);
-  await page.evaluate(() => window.skybake!.ready);
-}
-
-async function canvas(page: Page, width: number, height: number): Promise<Uint8Array> {
-  // As text: an array of numbers would take seconds through the protocol.
-  const encoded = await page.evaluate(([w, h]) => {
-    let bytes = '';
-    for (const value of window.skybake!.readPixels(0, 0, w!, h!)) bytes += String.fromCharCode(value);
-    return btoa(bytes);
-  }, [width, height]);
-  const rgba = Buffer.from(encoded, 'base64');
-  const rgb = new Uint8Array(width * height * 3);
-  for (let i = 0; i < width * height; ++i) rgb.set([rgba[4 * i]!, rgba[4 * i + 1]!, rgba[4 * i + 2]!], 3 * i);
-  return rgb;
-}
 
 /** Share of the pixels where a channel differs by more than 6 of 255: rounding of other Chromium versions stays below, a wrong light does not. */
 function differingShare(a: Uint8Array, b: Uint8Array): number {
@@ -310,6 +281,16 @@ describe.skipIf(!chromium)('the walkthrough of the synthetic bake', () => {
       await window.skybake!.setInstant(0);
       window.skybake!.setPicture('lit');
     });
+  });
+
+  test('a click copies the link to this very view', async () => {
+    await page.context().grantPermissions(['clipboard-read', 'clipboard-write']);
+    await page.evaluate(() => window.skybake!.setCamera([30, -40, 25], [0, 0, 4]));
+    await page.getByRole('button', { name: 'Copy link' }).click();
+    await page.getByText('The link to this view is copied.').waitFor();
+    const copied = await page.evaluate(() => navigator.clipboard.readText());
+    expect(copied).toBe(page.url());
+    expect(copied).toContain('#v=1&m=orbit&p=30.00,-40.00,25.00&t=0.00,0.00,4.00&s=');
   });
 
   test('the console stayed clean', () => {

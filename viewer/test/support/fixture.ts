@@ -208,7 +208,7 @@ function panorama(instant: (typeof instants)[number], width: number, height: num
   const out = Buffer.alloc(width * height * 8);
   const sun = sunDirection(instant.azimuth, instant.elevation);
   for (let row = 0; row < height; ++row) {
-    const elevation = 90 - ((row + 0.5) / height) * 90;
+    const elevation = 90 - (row / (height - 1)) * 90;
     for (let column = 0; column < width; ++column) {
       const direction = sunDirection(((column + 0.5) / width) * 360, elevation);
       const aureole = 4 * Math.exp(-Math.acos(Math.min(1, dot(direction, sun))) / 0.25);

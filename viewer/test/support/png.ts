@@ -39,7 +39,7 @@ function crc32(bytes: Uint8Array): number {
   return ~crc >>> 0;
 }
 
-/** Reads what encodePng() writes; refuses anything else. */
+/** Reads eight-bit grey and RGB without interlacing: what encodePng() and skybake write. */
 export function decodePng(file: Buffer): Image {
   const width = file.readUInt32BE(16);
   const height = file.readUInt32BE(20);
@@ -54,8 +54,23 @@ export function decodePng(file: Buffer): Image {
   const stride = width * channels;
   const pixels = new Uint8Array(stride * height);
   for (let row = 0; row < height; ++row) {
-    if (raw[row * (stride + 1)] !== 0) throw new Error('this PNG uses row filters; only files of encodePng() are read');
-    pixels.set(raw.subarray(row * (stride + 1) + 1, (row + 1) * (stride + 1)), row * stride);
+    const filter = raw[row * (stride + 1)] ?? 0;
+    for (let i = 0; i < stride; ++i) {
+      const left = i >= channels ? pixels[row * stride + i - channels]! : 0;
+      const up = row > 0 ? pixels[(row - 1) * stride + i]! : 0;
+      const corner = row > 0 && i >= channels ? pixels[(row - 1) * stride + i - channels]! : 0;
+      pixels[row * stride + i] = raw[row * (stride + 1) + 1 + i]! + predicted(filter, left, up, corner);
+    }
   }
   return { width, height, channels, pixels };
+}
+
+/** The filters of PNG (ISO/IEC 15948, section 9.2): none, left, up, mean, Paeth. */
+function predicted(filter: number, left: number, up: number, corner: number): number {
+  if (filter === 0) return 0;
+  if (filter === 1) return left;
+  if (filter === 2) return up;
+  if (filter === 3) return (left + up) >> 1;
+  const [toLeft, toUp, toCorner] = [left, up, corner].map((value) => Math.abs(left + up - corner - value)) as [number, number, number];
+  return toLeft <= toUp && toLeft <= toCorner ? left : toUp <= toCorner ? up : corner;
 }
