@@ -50,6 +50,7 @@ int run_arguments(std::vector<std::string> arguments) {
     add_render(app, program);
     add_sun(app, program);
     add_sky(app, program);
+    add_study(app, program);
 
     try {
         std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them

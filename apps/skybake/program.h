@@ -74,5 +74,6 @@ void add_render(CLI::App& app, Program& program);
 void add_sun(CLI::App& app, Program& program);
 void add_sky(CLI::App& app, Program& program);
 void add_demo(CLI::App& app, Program& program);
+void add_study(CLI::App& app, Program& program);
 
 }  // namespace skybake::cli

@@ -229,6 +229,7 @@ Georeference georeference(CityModel& city, FindingLog& findings) {
         const std::string projection = local_projection(degrees, ellipsoid);
         if (project_to_metres(context, city, nullptr, swap, 1.0, projection)) {
             note_projection(projection);
+            result.coordinate_crs = projection + " +units=m +type=crs";
             add("SB301",
                 fmt::format(
                     "coordinates in degrees of {} were projected to a transverse Mercator about {:.6f} N {:.6f} E.",
@@ -236,6 +237,7 @@ Georeference georeference(CityModel& city, FindingLog& findings) {
         }
         return result;
     }
+    result.coordinate_crs = code.empty() ? city.crs : code;
     const PjPtr from_geodetic = transformation(context, geodetic.get(), horizontal.get());
     if (!from_geodetic) return result;
     const LocalScale scale = local_scale(from_geodetic.get(), degrees, ellipsoid);
@@ -251,6 +253,7 @@ Georeference georeference(CityModel& city, FindingLog& findings) {
     const std::string projection = local_projection(degrees, ellipsoid);
     if (project_to_metres(context, city, to_geodetic.get(), false, z_unit, projection)) {
         note_projection(projection);
+        result.coordinate_crs = projection + " +units=m +type=crs";
         add("SB302", fmt::format("{} shows a metre as {:.4f} here; coordinates were projected to a transverse Mercator "
                                  "about {:.6f} N {:.6f} E.",
                                  result.crs_name, scale.north, degrees.y, degrees.x));

@@ -20,6 +20,9 @@ struct Georeference {
     double convergence_rad = 0.0;
     std::string crs_name;  // "EPSG:31256 MGI / Austria GK East", or empty
     std::string crs_code;  // "EPSG:31256", or empty
+    /// The system of the coordinates as they are now: the code, or, where they were projected to metres, the definition
+    /// that PROJ reads; empty when unknown.
+    std::string coordinate_crs{};
     // Where coordinates were projected to metres about the city's middle: PROJ's definition of that projection, and the
     // WKT of the geographic system under it. Empty where coordinates are still those of the CRS.
     std::string local_projection{};

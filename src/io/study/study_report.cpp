@@ -1,0 +1,129 @@
+#include <nlohmann/json.hpp>
+
+#include "io/manifest/sha256.h"
+#include "io/study/study_tables.h"
+
+namespace skybake::io {
+namespace {
+
+using nlohmann::json;
+
+json group_json(const Rule& rule, const Study& study, const Group& group) {
+    json columns = json::object(), criteria = json::object();
+    for (std::size_t c = 0; c < study.columns.size(); ++c) {
+        const GroupColumn& g = group.columns[c];
+        columns[study.columns[c].name] = {{"mean", g.mean}, {"least", g.least}, {"greatest", g.greatest}};
+    }
+    for (std::size_t c = 0; c < rule.criteria.size(); ++c) {
+        const GroupCriterion& g = group.criteria[c];
+        criteria[rule.criteria[c].id] = {{"area_pass", g.area_pass},
+                                         {"area_borderline", g.area_borderline},
+                                         {"area_fail", g.area_fail},
+                                         {"verdict", name_of(g.verdict)}};
+    }
+    return {{"level", name_of(group.level)},
+            {"id", group.id},
+            {"kind", name_of(group.kind)},
+            {"samples", group.samples},
+            {"area_m2", group.area_m2},
+            {"verdict", name_of(group.verdict)},
+            {"values", columns},
+            {"criteria", criteria}};
+}
+
+json rule_json(const Rule& rule, const StudyFacts& facts) {
+    json criteria = json::array();
+    for (const Criterion& c : rule.criteria) {
+        json entry = {{"id", c.id},
+                      {"text", c.text},
+                      {"metric", name_of(c.metric)},
+                      {"unit", unit_of(c.metric)},
+                      {"tolerance", c.tolerance},
+                      {"area_share", c.area_share},
+                      {"required", c.is_required}};
+        if (c.at_least) entry["at_least"] = *c.at_least;
+        if (c.at_most) entry["at_most"] = *c.at_most;
+        if (c.or_share_of_before) entry["or_share_of_before"] = *c.or_share_of_before;
+        criteria.push_back(std::move(entry));
+    }
+    const FileHash hash = hash_file(facts.rule_file);
+    return {{"id", rule.id},
+            {"version", rule.version},
+            {"title", rule.title},
+            {"source", rule.source},
+            {"source_date", rule.source_date},
+            {"confirmed", rule.confirmed},
+            {"to_check", rule.to_check},
+            {"sha256", hash.sha256},
+            {"criteria", criteria}};
+}
+
+}  // namespace
+
+json study_report(const Rule& rule, const Study& study, const std::vector<Group>& groups, const StudyFacts& facts) {
+    json inputs = json::array();
+    for (const std::filesystem::path& input : facts.inputs) {
+        const FileHash hash = hash_file(input);
+        inputs.push_back({{"file", input.filename().string()}, {"bytes", hash.bytes}, {"sha256", hash.sha256}});
+    }
+    json days = json::array();
+    for (const SunDay& day : study.days) {
+        days.push_back({{"month", day.day().month},
+                        {"day", day.day().day},
+                        {"window_begin", to_iso8601({day.begin(), 0})},
+                        {"window_end", to_iso8601({day.time_of(day.length_s()), 0})},
+                        {"hours", day.hours()}});
+    }
+    json kinds = json::array(), buildings = json::array();
+    for (const Group& group : groups) {
+        if (group.level == Level::kind) kinds.push_back(group_json(rule, study, group));
+        if (group.level == Level::building) buildings.push_back(group_json(rule, study, group));
+    }
+    json shadows = json::array();
+    for (const NewShadow& shadow : study.new_shadows) {
+        const SunDay& day = study.days[shadow.day];
+        const auto time = [&](float second) { return to_iso8601({day.time_of(static_cast<double>(second)), 0}); };
+        shadows.push_back({{"receiver", study.receivers.receivers[shadow.receiver].id},
+                           {"month", day.day().month},
+                           {"day", day.day().day},
+                           {"enter", time(shadow.episodes.front().begin_s)},
+                           {"exit", time(shadow.episodes.back().end_s)},
+                           {"minutes", shadow.total_min},
+                           {"longest_sample_minutes", shadow.longest_sample_min},
+                           {"area_share", shadow.area_share}});
+    }
+    const StudySettings& s = facts.settings;
+    json settings = {{"year", s.year},
+                     {"latitude_deg", degrees_from_radians(s.site.latitude_rad)},
+                     {"longitude_deg", degrees_from_radians(s.site.longitude_rad)},
+                     {"grid_convergence_deg", degrees_from_radians(s.convergence_rad)},
+                     {"timezone", s.timezone ? json(*s.timezone) : json()},
+                     {"scan_s", s.scan_s},
+                     {"step_min", rule.sampled ? json(rule.sampled->step_s / 60.0) : json()},
+                     {"min_elevation_deg", rule.min_elevation_deg},
+                     {"sky_directions", s.sky_directions},
+                     {"ground_albedo", s.ground_albedo},
+                     {"cell_m", facts.receivers.cell_m},
+                     {"height_m", facts.receivers.height_m},
+                     {"storey_height_m", facts.receivers.storey_height_m},
+                     {"weather", facts.weather ? json(*facts.weather) : json()}};
+    return {{"skybake_study", 1},
+            {"program", {{"version", facts.program_version}, {"isa", facts.embree_isa}}},
+            {"rule", rule_json(rule, facts)},
+            {"inputs", inputs},
+            {"crs", facts.crs},
+            {"settings", settings},
+            {"has_before", facts.has_before},
+            {"plan", facts.plan},
+            {"removed", facts.removed},
+            {"days", days},
+            {"samples", study.receivers.samples.size()},
+            {"receivers", study.receivers.receivers.size()},
+            {"enclosed_cells_left_out", study.receivers.enclosed},
+            {"rays", study.rays},
+            {"kinds", kinds},
+            {"buildings", buildings},
+            {"new_shadow", shadows}};
+}
+
+}  // namespace skybake::io

@@ -1,0 +1,205 @@
+#include "study/study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "base/check.h"
+#include "study/light_incidence.h"
+#include "study/sky_shares.h"
+
+namespace skybake {
+namespace {
+
+/// Collects the columns of one state of the city.
+class StateColumns {
+  public:
+    StateColumns(Study& study, const std::vector<Metric>& metrics, bool is_before)
+        : study_(study), metrics_(metrics), is_before_(is_before) {}
+
+    bool wants(Metric metric) const {
+        // Sun that is lost has no former state.
+        if (is_before_ && metric == Metric::new_shadow_hours) return false;
+        return std::find(metrics_.begin(), metrics_.end(), metric) != metrics_.end();
+    }
+    bool wants_any(std::initializer_list<Metric> some) const {
+        return std::any_of(some.begin(), some.end(), [&](Metric m) { return wants(m); });
+    }
+    void add(Metric metric, std::vector<float> values, std::optional<std::size_t> day = std::nullopt) {
+        if (!wants(metric)) return;
+        Column column{metric, day, is_before_, std::move(values), {}};
+        column.name = fmt::format("{}{}", is_before_ ? "before_" : "", name_of(metric));
+        if (day) {
+            const CalendarDay date = study_.days[*day].day();
+            column.name += fmt::format("_{:02}-{:02}", date.month, date.day);
+        }
+        study_.columns.push_back(std::move(column));
+    }
+
+  private:
+    Study& study_;
+    const std::vector<Metric>& metrics_;
+    bool is_before_;
+};
+
+void add_durations(StateColumns& columns, const SunIntervals& intervals, const Study& study, std::size_t day,
+                   double min_run_s) {
+    const std::size_t n = study.receivers.samples.size();
+    std::vector<float> sun(n), longest_sun(n), shadow(n), longest_shadow(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        const SunDuration d = duration_of(intervals.of(i), study.days[day], min_run_s);
+        sun[i] = static_cast<float>(d.sun_h);
+        longest_sun[i] = static_cast<float>(d.longest_sun_h);
+        shadow[i] = static_cast<float>(d.shadow_h);
+        longest_shadow[i] = static_cast<float>(d.longest_shadow_h);
+    }
+    columns.add(Metric::sun_hours, std::move(sun), day);
+    columns.add(Metric::longest_sun_hours, std::move(longest_sun), day);
+    columns.add(Metric::shadow_hours, std::move(shadow), day);
+    columns.add(Metric::longest_shadow_hours, std::move(longest_shadow), day);
+}
+
+void add_static(StateColumns& columns, Study& study, const Rule& rule, const StudyCity& city,
+                const StudySettings& settings, Progress& progress) {
+    const std::vector<Sample>& samples = study.receivers.samples;
+    const Vec3d& origin = city.scene->origin;
+    std::vector<float> sky_energy;
+    if (columns.wants_any({Metric::sky_view_factor, Metric::sky_component_pct, Metric::irradiation_kwh_m2})) {
+        const YearLight* year = columns.wants(Metric::irradiation_kwh_m2) ? settings.year_light : nullptr;
+        SkyShares shares = sky_shares(samples, origin, *city.rays, settings.sky_directions, year, progress);
+        study.rays += shares.rays;
+        sky_energy = std::move(shares.sky_irradiation_kwh_m2);
+        columns.add(Metric::sky_view_factor, std::move(shares.sky_view_factor));
+        columns.add(Metric::sky_component_pct, std::move(shares.sky_component_pct));
+    }
+    if (columns.wants_any({Metric::sunshine_pct, Metric::winter_sunshine_pct, Metric::irradiation_kwh_m2})) {
+        SKYBAKE_CHECK(settings.year_light != nullptr);
+        YearSun sun = year_sun(samples, origin, *city.rays, *settings.year_light, progress);
+        study.rays += sun.rays;
+        columns.add(Metric::sunshine_pct, std::move(sun.sunshine_pct));
+        columns.add(Metric::winter_sunshine_pct, std::move(sun.winter_sunshine_pct));
+        for (std::size_t i = 0; i < sky_energy.size(); ++i) sky_energy[i] += sun.beam_kwh_m2[i];
+        columns.add(Metric::irradiation_kwh_m2, std::move(sky_energy));
+    }
+    if (columns.wants(Metric::reflected_kwh_m2)) {
+        // An open, level, diffuse ground: ρ G (1 − cos β)/2 for a surface tilted by β (Liu & Jordan 1963).
+        const double leaving = settings.ground_albedo * settings.year_light->global_kwh_m2;
+        std::vector<float> reflected;
+        for (const Sample& s : samples)
+            reflected.push_back(static_cast<float>(0.5 * leaving * (1.0 - static_cast<double>(s.normal.z))));
+        columns.add(Metric::reflected_kwh_m2, std::move(reflected));
+    }
+    if (columns.wants(Metric::light_incidence_deg)) {
+        LightIncidence incidence = light_incidence(samples, origin, *city.rays, rule.swivel_deg, progress);
+        study.rays += incidence.rays;
+        columns.add(Metric::light_incidence_deg, std::move(incidence.angle_deg));
+    }
+}
+
+void add_days(Study& study, const Rule& rule, StateColumns& columns, StateColumns* before_columns,
+              const StudyCity& city, const std::optional<StudyCity>& before, const StudySettings& settings,
+              Progress& progress) {
+    const SunIntervalOptions options{settings.scan_s, rule.min_incidence_deg, rule.sampled};
+    const std::vector<Sample>& samples = study.receivers.samples;
+    const auto traced = [&](const StudyCity& state, std::size_t day) {
+        const auto begin = std::chrono::steady_clock::now();
+        SunIntervals found =
+            sun_intervals(samples, study.days[day], state.scene->origin, *state.rays, options, progress);
+        study.sun_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+        study.sun_rays += found.rays;
+        study.rays += found.rays;
+        return found;
+    };
+    for (std::size_t day = 0; day < study.days.size(); ++day) {
+        const SunIntervals after = traced(city, day);
+        add_durations(columns, after, study, day, 60.0 * rule.min_run_min);
+        if (!before) continue;
+        const SunIntervals former = traced(*before, day);
+        add_durations(*before_columns, former, study, day, 60.0 * rule.min_run_min);
+        std::vector<float> lost(samples.size());
+        for (std::size_t i = 0; i < samples.size(); ++i) {
+            for (const SunInterval& span : lost_sun(former.of(i), after.of(i)))
+                lost[i] += (span.end_s - span.begin_s) / 3600.0f;
+        }
+        columns.add(Metric::new_shadow_hours, std::move(lost), day);
+        const std::vector<NewShadow> shadows =
+            new_shadows(study.receivers, static_cast<std::uint32_t>(day), former, after);
+        study.new_shadows.insert(study.new_shadows.end(), shadows.begin(), shadows.end());
+    }
+}
+
+/// A criterion's value over the days, for all samples; empty when no column has it.
+std::vector<float> combined(const Study& study, const Criterion& criterion, bool is_before) {
+    std::vector<float> value;
+    std::size_t count = 0;
+    // The day that is worst for the threshold decides under `each`, the best under `any`.
+    const bool takes_least = (criterion.over_days == OverDays::each) != criterion.at_most.has_value();
+    for (const Column& column : study.columns) {
+        if (column.metric != criterion.metric || column.is_before != is_before) continue;
+        if (++count == 1) {
+            value = column.values;
+            continue;
+        }
+        for (std::size_t i = 0; i < value.size(); ++i) {
+            if (criterion.over_days == OverDays::mean) {
+                value[i] += column.values[i];
+            } else {
+                value[i] = takes_least ? std::min(value[i], column.values[i]) : std::max(value[i], column.values[i]);
+            }
+        }
+    }
+    if (criterion.over_days == OverDays::mean) {
+        for (float& v : value) v /= static_cast<float>(count);
+    }
+    return value;
+}
+
+CriterionResult judged(const Study& study, const Criterion& criterion) {
+    CriterionResult result;
+    result.value = combined(study, criterion, false);
+    const std::vector<float> before = combined(study, criterion, true);
+    const std::size_t n = study.receivers.samples.size();
+    SKYBAKE_CHECK_EQ(result.value.size(), n);
+    result.margin.resize(n);
+    result.verdict.assign(n, Verdict::none);
+    for (std::size_t i = 0; i < n; ++i) {
+        const ReceiverKind kind = study.receivers.receivers[study.receivers.samples[i].receiver].kind;
+        const bool is_asked = criterion.kinds.empty() ||
+                              std::find(criterion.kinds.begin(), criterion.kinds.end(), kind) != criterion.kinds.end();
+        if (!is_asked) continue;
+        std::optional<double> former;
+        if (!before.empty()) former = static_cast<double>(before[i]);
+        const Judgement judgement = judge(criterion, static_cast<double>(result.value[i]), former);
+        result.verdict[i] = judgement.verdict;
+        result.margin[i] = static_cast<float>(judgement.margin);
+    }
+    return result;
+}
+
+}  // namespace
+
+std::vector<SunDay> days_of(const Rule& rule, const StudySettings& settings) {
+    std::vector<SunDay> days;
+    for (const CalendarDay day : rule.days)
+        days.emplace_back(settings.year, day, settings.site, settings.convergence_rad,
+                          SunDayOptions{rule.window, rule.min_elevation_deg, settings.timezone});
+    return days;
+}
+
+Study run_study(const Rule& rule, ReceiverSet receivers, std::vector<SunDay> days, const StudyCity& city,
+                const std::optional<StudyCity>& before, const StudySettings& settings, Progress& progress) {
+    Study study;
+    study.receivers = std::move(receivers);
+    study.days = std::move(days);
+    const std::vector<Metric> metrics = rule.all_metrics();
+    StateColumns columns(study, metrics, false), before_columns(study, metrics, true);
+    if (std::any_of(metrics.begin(), metrics.end(), is_of_days))
+        add_days(study, rule, columns, &before_columns, city, before, settings, progress);
+    add_static(columns, study, rule, city, settings, progress);
+    if (before) add_static(before_columns, study, rule, *before, settings, progress);
+    for (const Criterion& criterion : rule.criteria) study.criteria.push_back(judged(study, criterion));
+    return study;
+}
+
+}  // namespace skybake

@@ -1,0 +1,152 @@
+// `skybake study` from city files to tables, maps and verdicts, and how it refuses what it cannot do.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "run_program.h"
+
+namespace skybake {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr double kX = -67000.0, kY = 215000.0;  // EPSG:31256, Graz's longitude 15.4, latitude 47.07
+
+/// A city of boxes in EPSG:31256, on ground of ±60 m or on none.
+nlohmann::json box_city(const std::vector<std::pair<std::string, std::array<double, 6>>>& boxes, bool has_ground) {
+    nlohmann::json objects = nlohmann::json::object(), vertices = nlohmann::json::array();
+    const auto vertex = [&](double x, double y, double z) {
+        vertices.push_back({std::llround(x * 1000), std::llround(y * 1000), std::llround(z * 1000)});
+    };
+    if (has_ground) {
+        vertex(-60, -60, 0), vertex(60, -60, 0), vertex(60, 60, 0), vertex(-60, 60, 0);
+        objects["ground"] = {
+            {"type", "TINRelief"},
+            {"geometry", {{{"type", "CompositeSurface"}, {"lod", "1"}, {"boundaries", {{{0, 1, 2}}, {{0, 2, 3}}}}}}}};
+    }
+    for (const auto& [id, b] : boxes) {
+        const int v = static_cast<int>(vertices.size());
+        for (const double z : {b[2], b[5]})
+            vertex(b[0], b[1], z), vertex(b[3], b[1], z), vertex(b[3], b[4], z), vertex(b[0], b[4], z);
+        nlohmann::json faces = nlohmann::json::array();
+        for (const std::array<int, 4>& f : {std::array{3, 2, 1, 0}, std::array{4, 5, 6, 7}, std::array{0, 1, 5, 4},
+                                            std::array{1, 2, 6, 5}, std::array{2, 3, 7, 6}, std::array{3, 0, 4, 7}})
+            faces.push_back({{v + f[0], v + f[1], v + f[2], v + f[3]}});
+        objects[id] = {
+            {"type", "Building"},
+            {"geometry", {{{"type", "Solid"}, {"lod", "1"}, {"boundaries", nlohmann::json::array({faces})}}}}};
+    }
+    return {{"type", "CityJSON"},
+            {"version", "2.0"},
+            {"metadata", {{"referenceSystem", "https://www.opengis.net/def/crs/EPSG/0/31256"}}},
+            {"transform", {{"scale", {0.001, 0.001, 0.001}}, {"translate", {kX, kY, 0.0}}}},
+            {"CityObjects", objects},
+            {"vertices", vertices}};
+}
+
+class StudyVerb : public testing::Test {
+  protected:
+    StudyVerb() {
+        std::ofstream(place / "city.json") << box_city({{"house", {-5, -5, 0, 5, 5, 6}}}, true);
+        std::ofstream(place / "bare.json") << box_city({{"house", {-5, -5, 0, 5, 5, 6}}}, false);
+        std::ofstream(place / "tower.json") << box_city({{"tower", {-5, -25, 0, 5, -15, 40}}}, false);
+        std::ofstream(place / "park.geojson") << park(kX, kY, "31256");
+        std::ofstream(place / "away.geojson") << park(0.0, 0.0, "31256");
+    }
+    /// A park of 20 × 10 m north of where the tower is to stand.
+    static nlohmann::json park(double x, double y, const std::string& epsg) {
+        const double x0 = x + 10, y0 = y - 20;
+        return {{"type", "FeatureCollection"},
+                {"crs", {{"type", "name"}, {"properties", {{"name", "urn:ogc:def:crs:EPSG::" + epsg}}}}},
+                {"features",
+                 {{{"type", "Feature"},
+                   {"properties", {{"id", "park"}}},
+                   {"geometry",
+                    {{"type", "Polygon"},
+                     {"coordinates", {{{x0, y0}, {x0 + 20, y0}, {x0 + 20, y0 + 10}, {x0, y0 + 10}, {x0, y0}}}}}}}}}};
+    }
+    nlohmann::json json_of(std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), "study");
+        arguments.push_back("--json");
+        Running program(place, arguments);
+        EXPECT_EQ(program.exit_code(), 0) << program.err();
+        return nlohmann::json::parse(program.out());
+    }
+    std::string refusal(std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), "study");
+        Running program(place, arguments);
+        EXPECT_EQ(program.exit_code(), 2) << program.out();
+        return program.err();
+    }
+    TemporaryFolder place;
+};
+
+TEST_F(StudyVerb, WritesTablesMapsAndReport) {
+    const nlohmann::json report =
+        json_of({place.str("city.json"), "-o", place.str("out"), "--receivers", "ground,facades"});
+    EXPECT_EQ(report["skybake_study"], 1);
+    EXPECT_EQ(report["samples"], 120 * 120 - 100 + 4 * 10 * 6);
+    EXPECT_EQ(report["crs"], "EPSG:31256");
+    EXPECT_EQ(report["inputs"][0]["sha256"].get<std::string>().size(), 64u);
+    EXPECT_EQ(report["rule"]["id"], "shadow-study");
+    for (const char* file : {"cells.csv", "groups.csv", "cells.gpkg", "ground.tif", "report.json"})
+        EXPECT_TRUE(std::filesystem::exists(place / "out" / file)) << file;
+    EXPECT_FALSE(std::filesystem::exists(place / "out" / "new_shadow.csv"));
+    const std::string cells = text_of(place / "out" / "cells.csv");
+    EXPECT_EQ(std::count(cells.begin(), cells.end(), '\n'), 120 * 120 - 100 + 240 + 1);
+    EXPECT_THAT(cells.substr(0, cells.find('\n')), HasSubstr("sun_hours_03-21,longest_sun_hours_03-21"));
+    // The same bits for another number of threads.
+    json_of({place.str("city.json"), "-o", place.str("one"), "--receivers", "ground,facades", "--threads", "1"});
+    EXPECT_EQ(text_of(place / "one" / "cells.csv"), cells);
+    EXPECT_EQ(text_of(place / "one" / "report.json"), text_of(place / "out" / "report.json"));
+}
+
+TEST_F(StudyVerb, TowerThrowsNewShadow) {
+    const nlohmann::json report =
+        json_of({place.str("city.json"), "--rule", "nyc-ceqr", "--add", place.str("tower.json"), "--polygons",
+                 place.str("park.geojson"), "-o", place.str("out")});
+    EXPECT_EQ(report["plan"], nlohmann::json::array({"tower"}));
+    ASSERT_FALSE(report["new_shadow"].empty());
+    EXPECT_EQ(report["new_shadow"][0]["receiver"], "park");
+    // The park lies east of the tower: its shadow falls there in the afternoon, after 11 UTC (noon at 15.4° east).
+    for (const nlohmann::json& shadow : report["new_shadow"]) {
+        EXPECT_GT(shadow["enter"].get<std::string>().substr(11, 5), "10:00") << shadow;
+        EXPECT_GT(shadow["minutes"].get<double>(), 10.0);
+    }
+    EXPECT_THAT(text_of(place / "out" / "new_shadow.csv"), HasSubstr("park,polygon,,2026-12-21,2026-12-21T"));
+    // The same with the tower in the city and named as the plan, and the other way round.
+    const nlohmann::json named = json_of({place.str("city.json"), place.str("tower.json"), "--rule", "nyc-ceqr",
+                                          "--plan", "tower", "--polygons", place.str("park.geojson")});
+    EXPECT_EQ(named["new_shadow"], report["new_shadow"]);
+    const nlohmann::json gone = json_of({place.str("city.json"), place.str("tower.json"), "--rule", "nyc-ceqr",
+                                         "--remove", "tower", "--polygons", place.str("park.geojson")});
+    EXPECT_TRUE(gone["new_shadow"].empty());
+}
+
+TEST_F(StudyVerb, RefusesWhatItCannotDo) {
+    EXPECT_THAT(refusal({place.str("city.json"), "--rule", "bre209"}), HasSubstr("did you mean 'bre209-vsc'"));
+    EXPECT_THAT(refusal({place.str("city.json"), "--rule", "nyc-ceqr", "--polygons", place.str("park.geojson")}),
+                HasSubstr("compares with the former state"));
+    EXPECT_THAT(refusal({place.str("city.json"), "--rule", "zurich-3h-shadow", "--timezone", "Europe/Zurich"}),
+                HasSubstr("shadow of the plan alone"));
+    EXPECT_THAT(refusal({place.str("city.json"), "--rule", "nsw-adg"}), HasSubstr("pass --timezone"));
+    EXPECT_THAT(refusal({place.str("bare.json"), "--receivers", "ground"}), HasSubstr("there is no receiver"));
+    EXPECT_THAT(refusal({place.str("city.json"), "--receivers", "polygons", "--polygons", place.str("away.geojson")}),
+                HasSubstr("its polygons lie at"));
+    EXPECT_THAT(refusal({place.str("city.json"), "--days", "12-21", "--site", "71.3,-156.8"}),
+                HasSubstr("on 2026-12-21 the sun does not come above"));
+    EXPECT_THAT(refusal({place.str("city.json"), "--remove", "houze"}), HasSubstr("did you mean 'house'"));
+    EXPECT_THAT(refusal({place.str("city.json"), "--step", "soon"}), HasSubstr("--step 'soon'"));
+    EXPECT_THAT(refusal({}), HasSubstr("needs a CITY"));
+}
+
+TEST_F(StudyVerb, ListsItsRules) {
+    Running program(place, {"study", "--list-rules"});
+    EXPECT_EQ(program.exit_code(), 0);
+    EXPECT_THAT(program.out(), HasSubstr("EN 17037: exposure to sunlight"));
+}
+
+}  // namespace
+}  // namespace skybake
