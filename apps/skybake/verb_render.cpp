@@ -19,6 +19,7 @@
 #include "program.h"
 #include "render/annotate.h"
 #include "render/render_picture.h"
+#include "sky/utc_time.h"
 #include "view_link.h"
 
 namespace skybake::cli {
@@ -87,6 +88,15 @@ Vec2i size_of(const RenderOptions& options) {
 }
 
 /// The instant that --at means: its number, its label or the beginning of one; else the link's; else the first.
+/// None for what is no time, such as the label of a sun's direction.
+std::optional<UtcTime> time_of(const std::string& text) {
+    try {
+        return parse_instant(text, std::nullopt).utc;
+    } catch (const InputError&) {
+        return std::nullopt;
+    }
+}
+
 std::size_t instant_of(const io::StoredBake& bake, const std::string& at, const std::optional<ViewLink>& link) {
     if (bake.instants.empty()) throw InputError(fmt::format("{}: holds no instant. Bake again.", bake.folder.string()));
     if (at.empty()) {
@@ -98,11 +108,12 @@ std::size_t instant_of(const io::StoredBake& bake, const std::string& at, const 
     std::size_t index = 0;
     const auto [end, error] = std::from_chars(at.data(), at.data() + at.size(), index);
     if (error == std::errc{} && end == at.data() + at.size() && index < bake.instants.size()) return index;
+    const std::optional<UtcTime> time = time_of(at);  // however it is written
     std::vector<std::string> labels;
     std::vector<std::size_t> found;
     for (std::size_t i = 0; i < bake.instants.size(); ++i) {
         labels.push_back(bake.instants[i].label);
-        if (labels.back() == at) return i;
+        if (labels.back() == at || (time && time_of(labels.back()) == time)) return i;
         if (labels.back().starts_with(at)) found.push_back(i);
     }
     if (found.size() == 1) return found.front();

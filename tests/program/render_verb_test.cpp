@@ -109,6 +109,20 @@ TEST_F(RenderVerb, TheLinkChoosesPlacePictureAndExposure) {
     EXPECT_NE(text_of(a), text_of(b));
 }
 
+TEST_F(RenderVerb, ATimeMayBeWrittenInOtherWays) {
+    Running bake(*folder_, {"bake", folder_->str("square.city.json"), "-o", folder_->str("noon"), "--at",
+                            "2026-06-21T12:00Z,2026-06-21T13:00Z", "--texel", "4"});
+    ASSERT_EQ(bake.exit_code(), 0) << bake.err();
+    for (const auto& [at, code] : {std::pair{"2026-06-21T14:00+02:00", 0},
+                                   {"2026-06-21 13:00:00Z", 0},
+                                   {"2026-06-21T14:00Z", 2},
+                                   {"2026-06-21", 2}}) {
+        Running run(*folder_,
+                    {"render", folder_->str("noon"), "-o", folder_->str("noon.png"), "--size", "16x16", "--at", at});
+        EXPECT_EQ(run.exit_code(), code) << at;
+    }
+}
+
 TEST_F(RenderVerb, SavedViewsAndInstantsHaveNames) {
     const std::string png = folder_->str("v.png");
     for (const auto& view : manifest_["views"])

@@ -41,7 +41,7 @@ struct StudyFacts {
     bool has_before = false;
 };
 
-/// The report as JSON (schema/study.schema.json): rule whole, inputs with SHA-256, settings, days, receivers, results
+/// The report as JSON: rule whole, inputs with SHA-256, settings, days, receivers, results
 /// by kind and building, new shadow. Nothing in it hangs on the clock or the machine but the instruction set's name.
 nlohmann::json study_report(const Rule& rule, const Study& study, const std::vector<Group>& groups,
                             const StudyFacts& facts);

@@ -37,6 +37,7 @@ test.skipIf(!chromium)('exposure, tone mapping and sRGB give the values of the t
             const hook = window.skybake!;
             hook.setPicture(shown);
             hook.setPart('lamps', false);
+            hook.setAir(false);
             hook.setExposure(stops);
             hook.setCamera([cx, cy - 3, cz], [cx, cy, cz]);
             return hook.readPixels(px, py, n, n);
