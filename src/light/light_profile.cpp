@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/check.h"
 
@@ -80,18 +81,14 @@ void LightProfile::tabulate_cells() {
         }
     }
     solid_angle_ = total;
-    double sum = 0.0;
     for (int row = 0; row < kRows; ++row) {
         const double even = (std::cos(row_top(row)) - std::cos(row_top(row + 1))) / (2.0 * kColumns);
-        double in_row = 0.0;
         for (int column = 0; column < kColumns; ++column) {
-            const double share = mean[static_cast<std::size_t>(row * kColumns + column)] / total;
-            in_row += (1.0 - kEvenShare) * share + kEvenShare * even;
-            cell_sum_.push_back(in_row);
+            double& cell = mean[static_cast<std::size_t>(row * kColumns + column)];
+            cell = (1.0 - kEvenShare) * cell / total + kEvenShare * even;
         }
-        sum += in_row;
-        row_sum_.push_back(sum);
     }
+    cells_ = CellDistribution(std::move(mean), kColumns);
 }
 
 float LightProfile::share(const Vec3f& local) const {
@@ -117,22 +114,13 @@ float LightProfile::largest_share(float low_rad, float high_rad) const {
 }
 
 LightProfile::Sample LightProfile::sample(float u, float v) const {
-    const double wanted = static_cast<double>(v) * row_sum_.back();
-    const std::size_t row =
-        static_cast<std::size_t>(std::upper_bound(row_sum_.begin(), row_sum_.end() - 1, wanted) - row_sum_.begin());
-    const double row_mass = cell_sum_[row * kColumns + kColumns - 1];
-    const double down = std::clamp((wanted - (row_sum_[row] - row_mass)) / row_mass, 0.0, 1.0);
-    const auto first = cell_sum_.begin() + static_cast<std::ptrdiff_t>(row * kColumns);
-    const double along = static_cast<double>(u) * row_mass;
-    const std::ptrdiff_t column = std::upper_bound(first, first + kColumns - 1, along) - first;
-    const double before = column == 0 ? 0.0 : first[column - 1];
-    const double mass = first[column] - before;
-    const double across = std::clamp((along - before) / mass, 0.0, 1.0);
-    const double z0 = std::cos(row_top(static_cast<int>(row))), z1 = std::cos(row_top(static_cast<int>(row) + 1));
-    const double z = z0 + down * (z1 - z0), r = std::sqrt(std::max(0.0, 1.0 - z * z));
-    const double c = 2.0 * kPi * (static_cast<double>(column) + across) / kColumns;
+    const CellDistribution::Place place = cells_.sample(u, v);
+    const int row = static_cast<int>(place.cell) / kColumns;
+    const double z0 = std::cos(row_top(row)), z1 = std::cos(row_top(row + 1));
+    const double z = z0 + (place.row - row) * (z1 - z0), r = std::sqrt(std::max(0.0, 1.0 - z * z));
+    const double c = 2.0 * kPi * place.column / kColumns;
     return {Vec3f(Vec3d(r * std::cos(c), r * std::sin(c), z)),
-            mass / row_sum_.back() / ((z0 - z1) * 2.0 * kPi / kColumns)};
+            cells_.mass(place.cell) / cells_.total() / ((z0 - z1) * 2.0 * kPi / kColumns)};
 }
 
 }  // namespace skybake

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/vec.h"
+#include "light/cell_distribution.h"
 
 namespace skybake {
 
@@ -39,7 +40,7 @@ class LightProfile {
 
     std::vector<double> c_, gamma_, share_;
     double peak_cd_ = 0.0, solid_angle_ = 0.0;
-    std::vector<double> row_sum_, cell_sum_;  // of the cells' solid angle × density, summed up
+    CellDistribution cells_;  // of directions: rows in γ, columns in C
 };
 
 }  // namespace skybake

@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "base/hash_rng.h"
+#include "light/cell_distribution.h"
 #include "light/sky_distribution.h"
 #include "light/surfaces.h"
 
@@ -67,59 +68,10 @@ std::vector<BoxFace> faces_of(const Box3f& box) {
             {{box.hi.x, box.lo.y, box.lo.z}, y, z, {1, 0, 0}}};
 }
 
-/// Where on a face photons depart: a density over its cells, evenly within each.
-class Aim {
-  public:
-    Aim() : Aim(std::vector<double>(kAimCells * kAimCells, 1.0)) {}
-    /// `weight` [row × kAimCells + column]: of each cell, positive.
-    explicit Aim(const std::vector<double>& weight) : cell_(weight), row_end_(kAimCells) {
-        double total = 0.0;
-        for (int row = 0; row < kAimCells; ++row) {
-            double sum = 0.0;
-            for (int column = 0; column < kAimCells; ++column) {
-                double& cell = cell_[static_cast<std::size_t>(row * kAimCells + column)];
-                sum += cell;
-                cell = sum;
-            }
-            total += sum;
-            row_end_[static_cast<std::size_t>(row)] = total;
-        }
-    }
-
-    /// The mean of the weights.
-    double mean() const { return row_end_.back() / (kAimCells * kAimCells); }
-
-    struct Place {
-        float u = 0.0f, v = 0.0f;  // on the face, 0…1
-        double density = 1.0;      // over that of an even spread
-        std::size_t cell = 0;
-    };
-    Place at(float a, float b) const {
-        const double target = static_cast<double>(b) * row_end_.back();
-        const std::size_t row =
-            static_cast<std::size_t>(std::upper_bound(row_end_.begin(), row_end_.end() - 1, target) - row_end_.begin());
-        const auto first = cell_.begin() + static_cast<std::ptrdiff_t>(row * kAimCells);
-        const double row_mass = first[kAimCells - 1];
-        const double up = std::clamp((target - (row_end_[row] - row_mass)) / row_mass, 0.0, 1.0);
-        const double wanted = static_cast<double>(a) * row_mass;
-        const std::ptrdiff_t column = std::upper_bound(first, first + kAimCells - 1, wanted) - first;
-        const double before = column == 0 ? 0.0 : first[column - 1];
-        const double mass = first[column] - before;
-        const double across = std::clamp((wanted - before) / mass, 0.0, 1.0);
-        return {static_cast<float>((static_cast<double>(column) + across) / kAimCells),
-                static_cast<float>((static_cast<double>(row) + up) / kAimCells), mass / mean(),
-                row * kAimCells + static_cast<std::size_t>(column)};
-    }
-
-  private:
-    std::vector<double> cell_;     // summed along each row, up to and with this one
-    std::vector<double> row_end_;  // all rows up to and with this one
-};
-
 struct Departure {
     Vec3f origin, direction;
     Rgb flux;              // lm
-    std::size_t cell = 0;  // of Aim, on a face
+    std::size_t cell = 0;  // of the face it left through
 };
 
 /// A source of photons: the sun or the sky through one face, or a lamp.
@@ -131,9 +83,10 @@ class Emitter {
         : flux_(flux), kind_(kind), face_(face), lamp_(lamp), sky_(std::move(sky)) {}
 
     bool has_face() const { return face_ != nullptr; }
-    void set_aim(Aim aim) { aim_ = std::move(aim); }
+    /// `weight` [row × kAimCells + column]: how dense photons depart from the cells of the face, positive.
+    void set_aim(std::vector<double> weight) { aim_ = CellDistribution(std::move(weight), kAimCells); }
     /// What its share of the photons goes by: its flux (lm) times how much its photons are worth.
-    double worth() const { return flux_ * aim_.mean(); }
+    double worth() const { return flux_ * mean_weight(); }
 
     /// Photon `index` of `count`; none when its direction carries nothing.
     std::optional<Departure> depart(const LightSources& sources, const DepartureSequence& sequence, std::uint64_t index,
@@ -143,10 +96,11 @@ class Emitter {
         const double n = static_cast<double>(count);
         if (kind_ == Kind::lamp) return from_lamp(a, b, n);
         Departure departure;
-        const Aim::Place place = aim_.at(a, b);
+        const CellDistribution::Place place = aim_.sample(a, b);
         departure.cell = place.cell;
-        departure.origin = face_->corner + place.u * face_->u + place.v * face_->v;
-        double measure = face_->area() / (n * place.density);
+        departure.origin = face_->corner + static_cast<float>(place.column / kAimCells) * face_->u +
+                           static_cast<float>(place.row / kAimCells) * face_->v;
+        double measure = face_->area() / (n * (aim_.mass(place.cell) / mean_weight()));  // area a photon stands for
         if (kind_ == Kind::sun) {
             const Vec3f to_sun = sample_sun(sources.daylight.sun, c, d);
             measure *= static_cast<double>(glm::dot(to_sun, face_->outward));
@@ -164,6 +118,8 @@ class Emitter {
     }
 
   private:
+    double mean_weight() const { return aim_.total() / (kAimCells * kAimCells); }
+
     std::optional<Departure> from_lamp(float a, float b, double count) const {
         const LampSample sample = sample_lamp(*lamp_, a, b);
         const Vec3f& direction = sample.direction;
@@ -178,7 +134,7 @@ class Emitter {
     const BoxFace* face_;
     const Lamp* lamp_;
     std::optional<SkyDistribution> sky_;  // for the cosine about the face's normal
-    Aim aim_;                             // of a lamp: even
+    CellDistribution aim_{std::vector<double>(kAimCells * kAimCells, 1.0), kAimCells};  // of a lamp: even
 };
 
 class PhotonTracer {
@@ -259,7 +215,7 @@ class PhotonTracer {
                     const double square = (static_cast<double>(squares[e * kCells + i]) + mean) / n;
                     weight[i] = std::sqrt(square + kAimFloor * mean);
                 }
-                emitters_[e].set_aim(Aim(weight));
+                emitters_[e].set_aim(weight);
             }
         }
         share_out(wanted_);

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include "base/check.h"
+#include <utility>
+#include <vector>
 
 namespace skybake {
 
@@ -26,9 +26,8 @@ Vec3f direction_at(double azimuth_cell, double height_cell) {
 
 }  // namespace
 
-SkyDistribution::SkyDistribution(const SkyModel& sky, const std::optional<Vec3f>& normal)
-    : row_sum_(kAzimuths * kHeights), row_end_(kHeights) {
-    std::vector<double> cosine(row_sum_.size(), 1.0);
+SkyDistribution::SkyDistribution(const SkyModel& sky, const std::optional<Vec3f>& normal) {
+    std::vector<double> mass(kAzimuths * kHeights), cosine(mass.size(), 1.0);
     double cosine_sum = 0.0, mass_sum = 0.0;
     for (int h = 0; h < kHeights; ++h) {
         for (int a = 0; a < kAzimuths; ++a) {
@@ -43,41 +42,25 @@ SkyDistribution::SkyDistribution(const SkyModel& sky, const std::optional<Vec3f>
                 const float c = glm::dot(*normal, direction_at(a + 0.5, h + 0.5));
                 cosine[cell] = c > -kHalfCell ? static_cast<double>(std::max(c, 0.25f * kHalfCell)) : 0.0;
             }
-            row_sum_[cell] = mean / (kSubdivision * kSubdivision) * cosine[cell];
-            mass_sum += row_sum_[cell];
+            mass[cell] = mean / (kSubdivision * kSubdivision) * cosine[cell];
+            mass_sum += mass[cell];
             cosine_sum += cosine[cell];
         }
     }
     total_ = mass_sum * kCellSolidAngle;
     if (!(mass_sum > 0.0)) return;
-    double total = 0.0;
-    for (int h = 0; h < kHeights; ++h) {
-        double sum = 0.0;
-        for (int a = 0; a < kAzimuths; ++a) {
-            const std::size_t cell = static_cast<std::size_t>(h * kAzimuths + a);
-            sum += (1.0 - kEvenShare) * row_sum_[cell] + kEvenShare * mass_sum / cosine_sum * cosine[cell];
-            row_sum_[cell] = sum;
-        }
-        total += sum;
-        row_end_[static_cast<std::size_t>(h)] = total;
-    }
+    for (std::size_t cell = 0; cell < mass.size(); ++cell)
+        mass[cell] = (1.0 - kEvenShare) * mass[cell] + kEvenShare * mass_sum / cosine_sum * cosine[cell];
+    cells_ = CellDistribution(std::move(mass), kAzimuths);
 }
 
 SkyDistribution::Sample SkyDistribution::sample(float u, float v) const {
-    SKYBAKE_DCHECK(total_ > 0.0);
-    const double target = static_cast<double>(u) * row_end_.back();
-    const auto row_place = std::upper_bound(row_end_.begin(), row_end_.end() - 1, target);
-    const std::size_t h = static_cast<std::size_t>(row_place - row_end_.begin());
-    const auto row = row_sum_.begin() + static_cast<std::ptrdiff_t>(h * kAzimuths);
-    const double row_mass = row[kAzimuths - 1];
-    const double up = std::clamp((target - (row_end_[h] - row_mass)) / row_mass, 0.0, 1.0);
-    const double wanted = static_cast<double>(v) * row_mass;
-    const std::ptrdiff_t a = std::upper_bound(row, row + kAzimuths - 1, wanted) - row;
-    const double before = a == 0 ? 0.0 : row[a - 1];
-    const double mass = row[a] - before;
-    const double across = mass > 0.0 ? std::clamp((wanted - before) / mass, 0.0, 1.0) : 0.5;
-    return {direction_at(static_cast<double>(a) + across, static_cast<double>(h) + up),
-            static_cast<float>(mass / (row_end_.back() * kCellSolidAngle))};
+    const CellDistribution::Place place = cells_.sample(v, u);
+    return {direction_at(place.column, place.row), pdf_of(place.cell)};
+}
+
+float SkyDistribution::pdf_of(std::size_t cell) const {
+    return static_cast<float>(cells_.mass(cell) / (cells_.total() * kCellSolidAngle));
 }
 
 float SkyDistribution::pdf(const Vec3f& direction) const {
@@ -86,9 +69,7 @@ float SkyDistribution::pdf(const Vec3f& direction) const {
     if (azimuth < 0.0) azimuth += 1.0;
     const int a = std::clamp(static_cast<int>(azimuth * kAzimuths), 0, kAzimuths - 1);
     const int h = std::clamp(static_cast<int>(direction.z * kHeights), 0, kHeights - 1);
-    const std::size_t cell = static_cast<std::size_t>(h * kAzimuths + a);
-    const double mass = row_sum_[cell] - (a == 0 ? 0.0 : row_sum_[cell - 1]);
-    return static_cast<float>(mass / (row_end_.back() * kCellSolidAngle));
+    return pdf_of(static_cast<std::size_t>(h * kAzimuths + a));
 }
 
 }  // namespace skybake

@@ -1,9 +1,10 @@
 // Random directions to one sky: what a path or a photon needs, one at a time (the texels' sets are DomeSampler's).
 #pragma once
 
+#include <cstddef>
 #include <optional>
-#include <vector>
 
+#include "light/cell_distribution.h"
 #include "sky/daylight.h"
 
 namespace skybake {
@@ -28,9 +29,9 @@ class SkyDistribution {
     float pdf(const Vec3f& direction) const;
 
   private:
-    std::vector<double>
-        row_sum_;  // [height][azimuth]: the cells' masses summed along each row, up to and with this one
-    std::vector<double> row_end_;  // [height]: all rows up to and with this one
+    float pdf_of(std::size_t cell) const;
+
+    CellDistribution cells_;  // rows: heights; columns: azimuths
     double total_ = 0.0;
 };
 
