@@ -10,6 +10,7 @@
 
 #include "base/check.h"
 #include "base/error.h"
+#include "io/file/csv_field.h"
 #include "io/file/replace_file.h"
 
 namespace skybake::io {
@@ -104,16 +105,6 @@ double number(const CsvReader& csv, const std::vector<std::string>& fields, std:
     return value;
 }
 
-std::string quoted_if_needed(const std::string& text) {
-    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-    std::string quoted = "\"";
-    for (const char c : text) {
-        if (c == '"') quoted += '"';
-        quoted += c;
-    }
-    return quoted + '"';
-}
-
 }  // namespace
 
 std::vector<ProbePoint> read_points(const std::filesystem::path& path) {
@@ -155,7 +146,7 @@ std::string probe_csv(std::span<const ProbePoint> points, std::span<const ProbeL
     for (std::size_t i = 0; i < points.size(); ++i) {
         const ProbeLight& l = light[i];
         const auto f = [](double value) { return static_cast<float>(value); };
-        fmt::format_to(std::back_inserter(csv), "{},{},{},{},{},{},{},{},{},{},{},{}\n", quoted_if_needed(points[i].id),
+        fmt::format_to(std::back_inserter(csv), "{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_field(points[i].id),
                        f(l.sun_lx), f(l.sky_lx), f(l.indirect_lx), luminance(l.total), l.total.x, l.total.y, l.total.z,
                        f(l.sun_visible), f(l.sky_view_factor), f(l.lamps_lx), f(l.indirect_error_lx));
     }

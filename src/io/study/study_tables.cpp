@@ -5,22 +5,12 @@
 #include <iterator>
 
 #include "base/vec.h"
+#include "io/file/csv_field.h"
 #include "io/file/replace_file.h"
 #include "io/geodata/geodata.h"
 
 namespace skybake::io {
 namespace {
-
-/// A field as RFC 4180 wants it.
-std::string field(const std::string& text) {
-    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-    std::string quoted = "\"";
-    for (const char c : text) {
-        if (c == '"') quoted += '"';
-        quoted += c;
-    }
-    return quoted + '"';
-}
 
 /// Text that goes to the file piece by piece, so that a million lines need no memory.
 class Lines {
@@ -74,10 +64,10 @@ void write_cells_csv(const std::filesystem::path& path, const Rule& rule, const 
     for (std::size_t i = 0; i < study.receivers.samples.size(); ++i) {
         const Sample& s = study.receivers.samples[i];
         const Receiver& r = study.receivers.receivers[s.receiver];
-        lines.put("{},{},{},{},{},{},{:.3f},{:.3f},{:.3f},{:.6g},{:.6g},{:.6g},{:.6g}", field(r.id), name_of(r.kind),
-                  field(r.building_id), field(r.object_id), r.surface ? std::to_string(*r.surface) : "",
-                  r.storey ? std::to_string(*r.storey) : "", s.position.x, s.position.y, s.position.z, s.normal.x,
-                  s.normal.y, s.normal.z, s.area_m2);
+        lines.put("{},{},{},{},{},{},{:.3f},{:.3f},{:.3f},{:.6g},{:.6g},{:.6g},{:.6g}", csv_field(r.id),
+                  name_of(r.kind), csv_field(r.building_id), csv_field(r.object_id),
+                  r.surface ? std::to_string(*r.surface) : "", r.storey ? std::to_string(*r.storey) : "", s.position.x,
+                  s.position.y, s.position.z, s.normal.x, s.normal.y, s.normal.z, s.area_m2);
         for (const Column& column : study.columns) lines.put(",{:.6g}", column.values[i]);
         for (const CriterionResult& c : study.criteria)
             lines.put(",{:.6g},{:.6g},{}", c.value[i], c.margin[i], name_of(c.verdict[i]));
@@ -95,8 +85,8 @@ void write_groups_csv(const std::filesystem::path& path, const Rule& rule, const
         lines.put(",{0}_area_pass,{0}_area_borderline,{0}_area_fail,{0}_verdict", c.id);
     lines.put("\n");
     for (const Group& group : groups) {
-        lines.put("{},{},{},{},{},{:.6g},{}", name_of(group.level), field(group.id), name_of(group.kind),
-                  field(group.building_id), group.samples, group.area_m2, name_of(group.verdict));
+        lines.put("{},{},{},{},{},{:.6g},{}", name_of(group.level), csv_field(group.id), name_of(group.kind),
+                  csv_field(group.building_id), group.samples, group.area_m2, name_of(group.verdict));
         for (const GroupColumn& c : group.columns) lines.put(",{:.6g},{:.6g},{:.6g}", c.mean, c.least, c.greatest);
         for (const GroupCriterion& c : group.criteria)
             lines.put(",{:.6g},{:.6g},{:.6g},{}", c.area_pass, c.area_borderline, c.area_fail, name_of(c.verdict));
@@ -113,10 +103,11 @@ void write_new_shadow_csv(const std::filesystem::path& path, const Study& study)
         const SunDay& day = study.days[shadow.day];
         const auto time = [&](float second) { return to_iso8601({day.time_of(static_cast<double>(second)), 0}); };
         for (const SunInterval& episode : shadow.episodes) {
-            lines.put("{},{},{},{:04}-{:02}-{:02},{},{},{:.3f},{:.3f},{:.3f},{:.4f}\n", field(r.id), name_of(r.kind),
-                      field(r.building_id), day.year(), day.day().month, day.day().day, time(episode.begin_s),
-                      time(episode.end_s), static_cast<double>(episode.end_s - episode.begin_s) / 60.0,
-                      shadow.total_min, shadow.longest_sample_min, shadow.area_share);
+            lines.put("{},{},{},{:04}-{:02}-{:02},{},{},{:.3f},{:.3f},{:.3f},{:.4f}\n", csv_field(r.id),
+                      name_of(r.kind), csv_field(r.building_id), day.year(), day.day().month, day.day().day,
+                      time(episode.begin_s), time(episode.end_s),
+                      static_cast<double>(episode.end_s - episode.begin_s) / 60.0, shadow.total_min,
+                      shadow.longest_sample_min, shadow.area_share);
         }
     }
     lines.commit();
