@@ -209,6 +209,16 @@ TEST(BrokenFiles, EachEndsInItsFindingOrItsError) {
     }
 }
 
+TEST(BrokenFiles, TheCompressedTileIsReadWhole) {
+    const auto path = test_data("data/broken/real/frankfurt_draco.b3dm");
+    SKYBAKE_NEEDS_DATA(path);
+    const LoadedCity loaded = load(path);
+    ASSERT_EQ(loaded.city.objects.size(), 1u);
+    // The tile says 49,427 (in its accessor's count, which should be three times as much); 1 of them is there twice.
+    ASSERT_EQ(loaded.findings.count("SB202"), 1u);
+    EXPECT_EQ(loaded.city.objects[0].geometry.surfaces.size() + loaded.findings.count("SB204") + 1, 49'427u);
+}
+
 TEST(BrokenFiles, TheSentinelDoesNotStretchTheTower) {
     const auto path = test_data("data/broken/real/paris_tower_z_sentinel.city.jsonl");
     SKYBAKE_NEEDS_DATA(path);
