@@ -119,7 +119,7 @@ export class Panel {
       element('fieldset', { class: 'field' }, [element('legend', {}, [text.picture]), pictureGroup]),
       element('fieldset', { class: 'field' }, [element('legend', {}, [text.parts]), partGroup]),
       element('fieldset', { class: 'field' }, [element('legend', {}, [text.navigation]), modeGroup]),
-      element('div', { class: 'field' }, [element('label', { for: 'view' }, [text.views]), this.viewSelect, copyLink]),
+      element('div', { class: 'field' }, [element('label', { for: 'view' }, [text.views]), element('div', { class: 'row' }, [this.viewSelect, copyLink])]),
       element('div', { class: 'field' }, [
         element('label', { for: 'ev' }, [text.exposure]),
         element('div', { class: 'row' }, [this.evSlider, evReset]),
