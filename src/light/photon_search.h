@@ -60,7 +60,7 @@ class PhotonSearch {
 
   private:
     bool covers(const PhotonQuery& query, float radius) const;
-    void take_patch(const PhotonQuery& query, float radius);
+    void take_patch(const PhotonQuery& query, float radius, bool is_shared);
     void find_within(const PhotonQuery& query, float radius);
     void keep_nearest(std::size_t count);
 
