@@ -1,7 +1,7 @@
 // Everything that fuzzing found, and what it began with: each file ends in a city, findings or an error, soon.
 #include <gtest/gtest.h>
 
-#include <chrono>
+#include <ctime>
 
 #include "cityjson/temporary_city.h"
 #include "error_of.h"
@@ -16,7 +16,7 @@ TEST(FuzzCorpus, EachFileEnds) {
     for (const auto& entry : std::filesystem::recursive_directory_iterator(SKYBAKE_CORPUS)) {
         if (!entry.is_regular_file()) continue;
         ++files;
-        const auto begun = std::chrono::steady_clock::now();
+        const std::clock_t begun = std::clock();
         LoadOptions options;
         options.ground = GroundChoice::draped;
         error_of([&] {
@@ -26,7 +26,7 @@ TEST(FuzzCorpus, EachFileEnds) {
                 load(entry.path(), options);
             }
         });
-        EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds(20)) << entry.path();
+        EXPECT_LT((std::clock() - begun) / CLOCKS_PER_SEC, 20) << entry.path();
     }
     EXPECT_GT(files, 100u);
 }

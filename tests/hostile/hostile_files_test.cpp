@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <chrono>
+#include <ctime>
 
 #include "citygml/gml_text.h"
 #include "error_of.h"
@@ -18,16 +18,14 @@ using testing::HasSubstr;
 
 class HostileFiles : public testing::Test {
   protected:
-    ~HostileFiles() override {
-        EXPECT_LT(std::chrono::steady_clock::now() - begun_, std::chrono::seconds(60)) << "soon";
-    }
+    ~HostileFiles() override { EXPECT_LT((std::clock() - begun_) / CLOCKS_PER_SEC, 60) << "seconds of processor"; }
     std::string error_of_file(const std::string& name, const std::string& text) const {
         return error_of([&] { load(folder_.write(name, text)); });
     }
     TemporaryFolder folder_;
 
   private:
-    std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
+    std::clock_t begun_ = std::clock();
 };
 
 std::string repeated(const std::string& text, std::size_t times) {
