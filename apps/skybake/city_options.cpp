@@ -21,6 +21,7 @@ LoadOptions CityOptions::load_options() const {
     load.footprints = footprints;
     load.ground = ground;
     load.ground_margin_m = ground_margin_m;
+    load.orthophotos = orthophotos;
     return load;
 }
 
@@ -69,6 +70,9 @@ void add_city_options(CLI::App* verb, CityOptions& options, bool is_required) {
     verb->add_option("--ground-margin", options.ground_margin_m, "how far added ground reaches beyond the city, metres")
         ->capture_default_str()
         ->check(CLI::Range(0.0, 1e5));
+    verb->add_option("--orthophoto", options.orthophotos,
+                     "picture from above for ground without texture (GeoTIFF, or PNG, JPEG with a world file)")
+        ->allow_extra_args(false);
 }
 
 }  // namespace skybake::cli

@@ -23,12 +23,13 @@ struct CityOptions {
     io::FootprintOptions footprints;
     GroundChoice ground = GroundChoice::none;
     double ground_margin_m = 30.0;
+    std::vector<std::filesystem::path> orthophotos;
 
     LoadOptions load_options() const;
 };
 
 /// Adds the positional CITY…, --lod, --crs, --up, --origin, --bbox, --exclude, --raster…, --height-field, --storey,
-/// --ground and --ground-margin; `options` must outlive the parsing.
+/// --ground, --ground-margin and --orthophoto; `options` must outlive the parsing.
 void add_city_options(CLI::App* verb, CityOptions& options, bool is_required = true);
 
 }  // namespace skybake::cli

@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/nearest_word.h"
+#include "memory_limit.h"
 #include "program.h"
 
 namespace {
@@ -77,6 +78,7 @@ int run_arguments(std::vector<std::string> arguments) {
 
 int main(int argc, char** argv) {
     std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is no error: `skybake … | head`
+    skybake::cli::limit_memory();
     try {
         return skybake::cli::run_arguments({argv + 1, argv + argc});
     } catch (const skybake::InputError& error) {

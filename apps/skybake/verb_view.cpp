@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "base/error.h"
+#include "memory_limit.h"
 #include "program.h"
 #include "viewer_assets.h"
 #include "web_server.h"
@@ -61,6 +62,7 @@ void open_browser(const std::string& url) {
     char* arguments[] = {program.data(), address.data(), nullptr};
     pid_t child = 0;
     std::signal(SIGCHLD, SIG_IGN);  // nobody waits for it
+    lift_memory_limit();
     posix_spawnp(&child, program.c_str(), &files, &attributes, arguments, environ);
     posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&files);

@@ -12,6 +12,7 @@
 #include "io/assembly/file_format.h"
 #include "io/citygml/read_citygml.h"
 #include "io/cityjson/read_cityjson.h"
+#include "io/gdal/orthophoto.h"
 #include "io/gdal/read_footprints.h"
 #include "io/gdal/read_raster.h"
 #include "io/gltf/read_gltf.h"
@@ -82,6 +83,11 @@ LoadedCity load_city(std::span<const std::filesystem::path> files, const LoadOpt
         loaded.findings.add(make_finding("SB117", where, "the city has no surface that light could fall on."));
     } else {
         add_ground(loaded.city, options.ground, options.ground_margin_m, loaded.findings);
+        for (const std::filesystem::path& photo : options.orthophotos) {
+            io::drape_orthophoto(photo, loaded.georeference.coordinate_crs, loaded.city, loaded.findings);
+            loaded.inputs.push_back(
+                {photo.string(), io::checked_file_size(photo), fmt::format("fnv1a:{:016x}", io::hash_of_file(photo))});
+        }
     }
     loaded.read_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
     return loaded;

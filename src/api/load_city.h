@@ -29,6 +29,7 @@ struct LoadOptions {
     std::vector<std::string> excluded{};  // ids of objects that are left out, with all below them
     io::RasterOptions raster{};
     io::FootprintOptions footprints{};
+    std::vector<std::filesystem::path> orthophotos{};  // on the ground; of several the first that covers a surface
 };
 
 struct InputFile {
@@ -48,9 +49,9 @@ struct LoadedCity {
 };
 
 /// Reads the files as one city in the reference system of the first that names one, each object once, repairs it,
-/// brings it into metres and adds ground when asked. Footprints without heights of their own stand on the terrain of
-/// the files. A city without any surface is finding SB117 and comes back empty. Throws InputError when a file is
-/// unusable as a whole or an excluded object does not exist, Interrupted when `progress` wants to stop.
+/// brings it into metres and adds ground and orthophotos when asked. Footprints without heights of their own stand on
+/// the terrain of the files. A city without any surface is finding SB117 and comes back empty. Throws InputError when a
+/// file is unusable as a whole or an excluded object does not exist, Interrupted when `progress` wants to stop.
 LoadedCity load_city(std::span<const std::filesystem::path> files, const LoadOptions& options, Progress& progress);
 
 }  // namespace skybake

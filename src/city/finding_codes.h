@@ -137,6 +137,8 @@ inline constexpr std::array kFindingCodes{
                 "Nothing to do; --raster-error sets how far it may lie from the raster."},
     FindingCode{"SB504", Severity::warning, "no ground beneath a footprint; it stands at height 0",
                 "Add a terrain file that covers it: skybake bake footprints.gpkg dem.tif."},
+    FindingCode{"SB505", Severity::info, "ground shows an orthophoto",
+                "Nothing to do. Ground beyond the picture has the default albedo."},
 
     FindingCode{"SB601", Severity::warning, "turbidity is outside the range of the sky model",
                 "Take 2 for very clear, 3 for clear, 6 for hazy air."},

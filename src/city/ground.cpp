@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <span>
 #include <vector>
 
 #include "city/finding_codes.h"
@@ -18,22 +19,37 @@ namespace {
 
 constexpr double kFootBand = 0.3;    // vertices this far above an object's lowest one stand on the ground too. Metres
 constexpr double kBelowFeet = 0.01;  // metres
+constexpr double kFootStep = 2.0;    // along the foot of a wall. Metres
+constexpr int kMostSteps = 64;       // for one wall
 constexpr double kLevel = 2.0;       // feet that differ by less may stand on a plane. Metres
 
-/// Vertices at the feet of all objects, thinned to the lowest in each square metre, in a fixed order.
+/// Vertices at the feet of all objects and points along the edges between them, thinned to the lowest in each square
+/// metre, in a fixed order. Without those along the edges a long wall would stand over a triangle between its
+/// neighbours' lower feet.
 std::vector<Vec3d> feet_of(const CityModel& city) {
     std::map<std::pair<std::int64_t, std::int64_t>, Vec3d> cells;
+    const auto add = [&](const Vec3d& p) {
+        const auto [cell, is_new] = cells.emplace(std::pair(std::llround(p.x), std::llround(p.y)), p);
+        if (!is_new && p.z < cell->second.z) cell->second = p;
+    };
     for (const CityObject& object : city.objects) {
         if (object.geometry.is_empty()) continue;
         // An installation may hang in the air; its building tells where the ground is.
         if (object.type == ObjectType::building_installation) continue;
         double lowest = std::numeric_limits<double>::max();
         for (const std::uint32_t c : object.geometry.corners) lowest = std::min(lowest, object.geometry.vertices[c].z);
-        for (const std::uint32_t c : object.geometry.corners) {
-            const Vec3d& p = object.geometry.vertices[c];
-            if (p.z > lowest + kFootBand) continue;
-            const auto [cell, is_new] = cells.emplace(std::pair(std::llround(p.x), std::llround(p.y)), p);
-            if (!is_new && p.z < cell->second.z) cell->second = p;
+        for (std::uint32_t r = 0; r + 1 < object.geometry.ring_first.size(); ++r) {
+            const std::span<const std::uint32_t> ring = ring_of(object.geometry, r);
+            for (std::size_t i = 0; i < ring.size(); ++i) {
+                const Vec3d& p = object.geometry.vertices[ring[i]];
+                const Vec3d& next = object.geometry.vertices[ring[(i + 1) % ring.size()]];
+                if (p.z > lowest + kFootBand) continue;
+                add(p);
+                if (next.z > lowest + kFootBand) continue;
+                const double length = glm::distance(Vec2d(p), Vec2d(next));
+                const int steps = static_cast<int>(std::min(length / kFootStep, static_cast<double>(kMostSteps)));
+                for (int k = 1; k < steps; ++k) add(p + (next - p) * (static_cast<double>(k) / steps));
+            }
         }
     }
     std::vector<Vec3d> feet;

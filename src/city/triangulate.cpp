@@ -126,7 +126,8 @@ Triangles triangulate_with_geos(const PlanarPolygon& polygon, double area) {
     }
     const geos::GeometryPtr input(
         GEOSGeom_createPolygon_r(context, shell.release(), holes.data(), static_cast<unsigned>(holes.size())));
-    if (!input) return {};
+    // GEOS's ear clipping (3.11) runs for ever on some rings that meet themselves.
+    if (!input || GEOSisValid_r(context, input.get()) != 1) return {};
     const geos::GeometryPtr output(GEOSConstrainedDelaunayTriangulation_r(context, input.get()));
     if (!output) return {};
 

@@ -25,7 +25,9 @@ std::vector<PointLight> light_points(std::span<const ReceiverPoint> points, cons
         sun_disc_directions(sun, sun.shape == SunShape::disc ? options.disc_samples : 1);
     std::vector<PointLight> light(points.size());
     tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
-        const auto& [normal, members] = *groups[g];
+        // no structured binding: clang 14 lets no inner lambda use one
+        const Vec3f& normal = groups[g]->first;
+        const std::vector<std::size_t>& members = groups[g]->second;
         const DomeSamples dome = sampler.sample(normal, options.sky_samples);
         const float cosine = glm::dot(normal, sun.direction);
         constexpr std::size_t kPacket = RayScene::kPacketSize;

@@ -25,7 +25,8 @@ SkyShares sky_shares(std::span<const Sample> samples, const Vec3d& scene_origin,
     std::vector<std::uint64_t> group_rays(groups.size());
     progress.begin("sky", samples.size());
     tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
-        const auto& [normal, ranges] = groups[g];
+        const auto& normal = groups[g].normal;  // no structured binding: clang 14 lets no inner lambda use one
+        const auto& ranges = groups[g].ranges;
         const DomeSamples dome = sampler.sample(normal, directions);
         tbb::parallel_for(std::size_t{0}, ranges.size(), [&](std::size_t r) {
             if (progress.stop_requested()) return;

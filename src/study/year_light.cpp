@@ -177,7 +177,8 @@ YearSun year_sun(std::span<const Sample> samples, const Vec3d& scene_origin, con
     };
     progress.begin("sun of the year", samples.size());
     tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
-        const auto& [normal, ranges] = groups[g];
+        const auto& normal = groups[g].normal;  // no structured binding: clang 14 lets no inner lambda use one
+        const auto& ranges = groups[g].ranges;
         std::vector<NodeWeight> weights(year.nodes.size());
         for (const SunMoment& moment : year.moments) {
             const float cosine = glm::dot(moment.direction, normal);

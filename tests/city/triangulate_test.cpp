@@ -110,6 +110,17 @@ TEST(Triangulate, WhatHasNoAreaOrCrossesItselfGivesNothing) {
     add_polygon(g, {{{0, 0, 0}, {1, 0, 0}, {NAN, 1, 0}}});
     add_polygon(g, {{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}},
                     {{3, 1, 0}, {6, 1, 0}, {6, 2, 0}, {3, 2, 0}}});  // hole across the rim
+    add_polygon(g, {{{8, 0, 0},
+                     {9, 6, 0},
+                     {0, 0, 5},
+                     {0, 6, 0},
+                     {9, 0, 0},
+                     {9, 0, 5},
+                     {0, 0, 5},
+                     {9, 0, 0},
+                     {0, 0, 0},
+                     {9, 6, 0},
+                     {0, 0, 5}}});  // on it GEOS's ear clipping does not end; found by fuzzing
     for (const Surface& surface : g.surfaces) EXPECT_TRUE(triangulate(g, surface).empty());
     EXPECT_TRUE(triangulate(g, Surface{}).empty());
 }

@@ -7,8 +7,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "base/error.h"
 #include "base/hash_rng.h"
+#include "error_of.h"
 #include "gml_text.h"
 #include "test_data.h"
 
@@ -19,12 +19,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 
 std::string error_of(const std::string& text) {
-    try {
-        load_gml(text);
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "no error";
+    return skybake::error_of([&] { load_gml(text); });
 }
 
 TEST(HostileCityGml, EntitiesAreRefused) {

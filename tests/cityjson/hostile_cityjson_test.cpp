@@ -4,7 +4,7 @@
 
 #include <chrono>
 
-#include "base/error.h"
+#include "error_of.h"
 #include "temporary_city.h"
 
 namespace skybake {
@@ -23,12 +23,7 @@ class HostileCityJson : public testing::Test {
 };
 
 std::string error_of(const std::string& text) {
-    try {
-        load_text(text);
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "no error";
+    return skybake::error_of([&] { load_text(text); });
 }
 
 TEST_F(HostileCityJson, DeepNestsAreRefused) {

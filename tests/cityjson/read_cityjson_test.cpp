@@ -5,7 +5,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "base/error.h"
+#include <array>
+#include <cmath>
+
+#include "error_of.h"
 #include "temporary_city.h"
 
 namespace skybake {
@@ -14,12 +17,7 @@ namespace {
 using testing::HasSubstr;
 
 std::string error_of(const std::string& text) {
-    try {
-        load_text(text);
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "no error";
+    return skybake::error_of([&] { load_text(text); });
 }
 
 std::string first_text(const LoadedCity& city, const std::string& code) {
@@ -286,6 +284,55 @@ TEST(LoadCity, GroundIsAddedOnRequestOnly) {
         area += 0.5 * glm::cross(b - a, c - a).z;
     }
     EXPECT_NEAR(area, 61.0 * 61.0, 1e-6);
+}
+
+/// The draped ground's height above (x, y).
+double height_at(const Geometry& g, double x, double y) {
+    for (std::uint32_t r = 0; r + 1 < g.ring_first.size(); ++r) {
+        const Vec3d a = g.vertices[g.corners[3 * r]], ab = g.vertices[g.corners[3 * r + 1]] - a,
+                    ac = g.vertices[g.corners[3 * r + 2]] - a;
+        const double det = ab.x * ac.y - ab.y * ac.x;
+        const double u = ((x - a.x) * ac.y - (y - a.y) * ac.x) / det, v = (ab.x * (y - a.y) - ab.y * (x - a.x)) / det;
+        if (u >= -1e-9 && v >= -1e-9 && u + v <= 1.0 + 1e-9) return a.z + u * ab.z + v * ac.z;
+    }
+    return NAN;
+}
+
+TEST(LoadCity, DrapedGroundMeetsTheFootOfALongWall) {
+    // A house of 60 m × 4 m that stands at 2 m, and low ones of 2 m on both sides of its middle at 0 m.
+    std::string vertices, objects;
+    int first = 0;
+    const auto add = [&](double x, double y, double wide, double deep, double z) {
+        for (const double up : {0.0, 5.0}) {
+            for (const auto& [i, j] : {std::pair(0, 0), {1, 0}, {1, 1}, {0, 1}})
+                vertices += std::string(vertices.empty() ? "[" : ",[") +
+                            std::to_string(std::llround(1000 * (x + i * wide))) + "," +
+                            std::to_string(std::llround(1000 * (y + j * deep))) + "," +
+                            std::to_string(std::llround(1000 * (z + up))) + "]";
+        }
+        std::string shell;
+        for (const auto& f : {std::array{0, 3, 2, 1}, std::array{4, 5, 6, 7}, std::array{0, 1, 5, 4},
+                              std::array{1, 2, 6, 5}, std::array{2, 3, 7, 6}, std::array{3, 0, 4, 7}}) {
+            shell += shell.empty() ? "[[" : ",[[";
+            for (int k = 0; k < 4; ++k)
+                shell += (k > 0 ? "," : "") + std::to_string(first + f[static_cast<std::size_t>(k)]);
+            shell += "]]";
+        }
+        objects +=
+            (objects.empty() ? "" : ",") +
+            building(R"({"type":"Solid","lod":"1","boundaries":[[)" + shell + "]]}", "b" + std::to_string(first));
+        first += 8;
+    };
+    add(0, 0, 60, 4, 2);
+    add(29, 6, 2, 2, 0);
+    add(29, -4, 2, 2, 0);
+    const LoadedCity draped =
+        load_text(document(objects, "[" + vertices + "]"), {std::nullopt, GroundChoice::draped, 30.0});
+    ASSERT_EQ(draped.city.objects.back().id, "skybake-ground");
+    for (double x = 0.0; x <= 60.0; x += 0.5) {
+        for (const double y : {0.0, 4.0})
+            EXPECT_NEAR(height_at(draped.city.objects.back().geometry, x, y), 2.0, 1e-6) << x;
+    }
 }
 
 }  // namespace

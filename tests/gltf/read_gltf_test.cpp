@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 #include <meshoptimizer.h>
 
-#include "base/error.h"
 #include "cityjson/temporary_city.h"
+#include "error_of.h"
 #include "gltf_maker.h"
 #include "io/image/image.h"
 #include "test_data.h"
@@ -22,12 +22,7 @@ LoadedCity load_asset(const std::string& bytes, const std::string& name = "a.glb
     return load(folder.write(name, bytes));
 }
 std::string error_of(const std::string& bytes, const std::string& name = "a.glb") {
-    try {
-        load_asset(bytes, name);
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "no error";
+    return skybake::error_of([&] { load_asset(bytes, name); });
 }
 void expect_cube(const LoadedCity& loaded, const Vec3d& lo, const Vec3d& hi) {
     ASSERT_EQ(loaded.city.objects.size(), 1u);
@@ -305,7 +300,8 @@ TEST(ReadGltf, FaultsOfPartsAreFindings) {
               }),
               1u);
     EXPECT_EQ(findings([](GltfMaker& m) { m.json["bufferViews"][0]["byteLength"] = 1u << 30; }), 1u);
-    EXPECT_EQ(findings([](GltfMaker& m) { m.json["nodes"][0]["children"] = Json::array({0}); }), 1u) << "its own parent";
+    EXPECT_EQ(findings([](GltfMaker& m) { m.json["nodes"][0]["children"] = Json::array({0}); }), 1u)
+        << "its own parent";
     EXPECT_EQ(findings([](GltfMaker& m) { m.json["nodes"][0]["matrix"] = {1, 2, 3}; }), 1u);
     EXPECT_EQ(findings([](GltfMaker& m) { m.json["meshes"][0]["primitives"][0]["material"] = 3; }), 1u);
     EXPECT_EQ(findings([](GltfMaker& m) { m.json["meshes"][0]["primitives"][0]["indices"] = -1; }), 1u);

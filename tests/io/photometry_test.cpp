@@ -5,7 +5,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "base/error.h"
+#include "error_of.h"
 #include "io/photometry/read_profile.h"
 #include "scratch_folder.h"
 
@@ -21,12 +21,7 @@ class Photometry : public testing::Test {
         return read_profile(folder_ / "lamp.txt");
     }
     std::string error_of(const std::string& text) {
-        try {
-            read(text);
-        } catch (const InputError& error) {
-            return error.what();
-        }
-        return "no error";
+        return skybake::error_of([&] { read(text); });
     }
     ScratchFolder folder_{"photometry"};
 };

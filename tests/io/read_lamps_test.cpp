@@ -7,7 +7,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "base/error.h"
+#include "error_of.h"
 #include "io/lamps/write_town_lamps.h"
 #include "scratch_folder.h"
 
@@ -23,12 +23,7 @@ class LampFiles : public testing::Test {
         return read_lamps(folder_ / "lamps", origin, at, findings_);
     }
     std::string error_of(const std::string& text) {
-        try {
-            read(text);
-        } catch (const InputError& error) {
-            return error.what();
-        }
-        return "no error";
+        return skybake::error_of([&] { read(text); });
     }
     ScratchFolder folder_{"lamps"};
     FindingLog findings_;

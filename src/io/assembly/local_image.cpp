@@ -14,6 +14,12 @@ std::optional<std::filesystem::path> path_below(const std::filesystem::path& fol
     std::replace(relative.begin(), relative.end(), '\\', '/');
     const std::filesystem::path path = std::filesystem::path(relative).lexically_normal();
     if (path.is_absolute() || (!path.empty() && *path.begin() == "..")) return std::nullopt;
+    // What is there may be a link that leads out of the folder.
+    std::error_code error;
+    const std::filesystem::path root = std::filesystem::weakly_canonical(folder.empty() ? "." : folder, error);
+    const std::filesystem::path target = std::filesystem::weakly_canonical(folder / path, error);
+    if (error || std::mismatch(root.begin(), root.end(), target.begin(), target.end()).first != root.end())
+        return std::nullopt;
     return folder / path;
 }
 

@@ -12,7 +12,7 @@
 namespace skybake::io {
 
 /// The file that a city file calls `uri`, below `folder`, whether it is there or not; none when the name leaves the
-/// folder. Backslashes count as slashes.
+/// folder, by itself or by links. Backslashes count as slashes.
 std::optional<std::filesystem::path> path_below(const std::filesystem::path& folder, std::string_view uri);
 
 /// Sets path and is_missing of a texture whose `uri` is set. The image is looked for below `folder` only, and not

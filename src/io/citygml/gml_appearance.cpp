@@ -61,6 +61,8 @@ std::optional<PixelToMap> read_world_file(const std::filesystem::path& image) {
     for (const std::string& ending : endings) {
         std::filesystem::path path = image;
         path.replace_extension(ending);
+        std::error_code error;
+        if (!std::filesystem::is_regular_file(path, error)) continue;
         std::ifstream in(path);
         std::array<double, 6> v{};
         bool is_whole = in.is_open();

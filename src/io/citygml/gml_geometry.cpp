@@ -278,6 +278,7 @@ class GeometryBuilder {
             return false;
         }
         stated_ = numbers_.size() / dimension;
+        context_.budget->take(stated_);
         std::vector<Vec3d>& vertices = surfaces_.geometry.vertices;
         for (std::size_t i = 0; i + dimension <= numbers_.size(); i += dimension) {
             Vec3d p(numbers_[i], numbers_[i + 1], dimension == 3 ? numbers_[i + 2] : 0.0);

@@ -10,6 +10,7 @@
 
 #include "base/finding.h"
 #include "city/city_model.h"
+#include "io/assembly/corner_budget.h"
 #include "io/citygml/gml_appearance.h"
 #include "io/xml/xml_tree.h"
 
@@ -22,6 +23,7 @@ using GmlLibrary = std::unordered_map<std::string, XmlElement>;
 struct GmlContext {
     const GmlAppearance* appearance = nullptr;
     const GmlLibrary* library = nullptr;
+    CornerBudget* budget = nullptr;
     std::string file;                                      // for places
     bool is_geographic = false;                            // coordinates are degrees
     std::unordered_map<std::string_view, XmlElement> ids;  // of the object's own tree

@@ -269,6 +269,7 @@ class FileReader {
     ReadFile read() {
         ReadFile file;
         file.bytes = checked_file_size(path_);
+        budget_.emplace(path_.string(), file.bytes);
         progress_.begin("read " + assembly_.name(), std::max<std::uint64_t>(2 * file.bytes, 1));
         const auto advance = [&](std::string_view bytes) { progress_.advance(bytes.size()); };
         ContentHash hash;
@@ -336,6 +337,7 @@ class FileReader {
                     GmlContext context;
                     context.appearance = &appearance_;
                     context.library = &library_;
+                    context.budget = &*budget_;
                     context.file = assembly_.name();
                     context.is_geographic = is_geographic_;
                     if (batch[i].has_references) {
@@ -367,6 +369,7 @@ class FileReader {
     XmlNames names_;
     std::vector<std::unique_ptr<XmlTree>> library_trees_;
     GmlLibrary library_;
+    std::optional<CornerBudget> budget_;
 };
 
 }  // namespace

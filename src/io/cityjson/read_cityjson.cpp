@@ -70,6 +70,7 @@ class FileReader {
 
     ReadFile read() {
         file_.bytes = checked_file_size(path_);
+        budget_.emplace(path_.string(), file_.bytes);
         progress_.begin("read " + name_, std::max<std::uint64_t>(file_.bytes, 1));
         read_text();
         assembly_.finish({crs_, stated_extent_, transform_.translate});
@@ -213,7 +214,7 @@ class FileReader {
             fail(fmt::format("{} cannot be parsed: it is nested too deeply or holds a number out of range.",
                              place_of(id)));
         }
-        const GeometryContext context{feature.vertices, &feature.appearance, &templates_};
+        const GeometryContext context{feature.vertices, &feature.appearance, &templates_, &*budget_};
         return read_object(id, e, context, choice_, place_of(id), findings);
     }
 
@@ -462,7 +463,7 @@ class FileReader {
         }
         simdjson::dom::object objects;
         if (root["CityObjects"].get_object().get(objects) != simdjson::SUCCESS) fail("the feature has no CityObjects.");
-        const GeometryContext context{feature.vertices, &feature.appearance, &templates_};
+        const GeometryContext context{feature.vertices, &feature.appearance, &templates_, &*budget_};
         for (const auto& [id, object] : objects) {
             result.objects.push_back(read_object(id, object, context, choice_, place_of(id), result.findings));
         }
@@ -496,6 +497,7 @@ class FileReader {
     Parsed template_text_;
     CityJsonTemplates templates_;
     AppearanceMap template_map_;
+    mutable std::optional<CornerBudget> budget_;  // taken from by the tasks that read objects
 };
 
 }  // namespace

@@ -370,9 +370,11 @@ ReadGeometry read_instance(element instance, const GeometryContext& context, con
     for (std::size_t i = 0; is_matrix && i < 16; ++i) is_matrix = matrix[i].get_double().get(m[i]) == simdjson::SUCCESS;
     if (!is_matrix || m[15] == 0.0) return fault("its transformationMatrix is not 16 numbers of a matrix; left out.");
 
-    const GeometryContext inner{context.templates->vertices, context.templates->appearance, nullptr};
+    context.budget->take(0);  // where it is spent already, nothing more is read
+    const GeometryContext inner{context.templates->vertices, context.templates->appearance, nullptr, nullptr};
     ReadGeometry result = read_geometry(context.templates->templates[index], inner, where, findings);
     result.is_from_template = true;
+    context.budget->take(result.geometry.corners.size());
     for (Vec3d& p : result.geometry.vertices) {
         const auto row = [&](std::size_t r) {
             return m[4 * r] * p.x + m[4 * r + 1] * p.y + m[4 * r + 2] * p.z + m[4 * r + 3];

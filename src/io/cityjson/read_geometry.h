@@ -10,6 +10,7 @@
 
 #include "base/finding.h"
 #include "city/city_model.h"
+#include "io/assembly/corner_budget.h"
 #include "io/assembly/lod.h"
 #include "io/cityjson/read_appearance.h"
 
@@ -27,6 +28,7 @@ struct GeometryContext {
     std::span<const Vec3d> vertices;
     const CityJsonAppearance* appearance = nullptr;
     const CityJsonTemplates* templates = nullptr;
+    CornerBudget* budget = nullptr;  // of templates
 };
 
 /// Materials and textures of surfaces are numbers in `context.appearance`, or in the templates' appearance when

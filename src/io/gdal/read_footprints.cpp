@@ -116,10 +116,16 @@ class FootprintReader {
         CityAssembly assembly(path_, city_, findings_);
         const NamedSystem system = named_system(layer.GetSpatialRef());
         is_degrees_ = layer.GetSpatialRef() && layer.GetSpatialRef()->IsGeographic();
+        CPLErrorReset();
         layer.ResetReading();
         while (const OGRFeatureUniquePtr feature{layer.GetNextFeature()}) {
             if (progress_.stop_requested()) throw Interrupted();
             read_feature(*feature, layer, system, assembly);
+        }
+        if (CPLGetLastErrorType() >= CE_Failure) {
+            throw InputError(fmt::format(
+                "{}: is damaged: its features end early ({}). Complete the download, or write it anew with GDAL.",
+                path_.string(), CPLGetLastErrorMsg()));
         }
         FileFacts facts;
         facts.crs = system.name;

@@ -19,9 +19,12 @@ namespace {
 constexpr std::array<const char*, 2> kDrivers = {"GTiff", "AAIGrid"};
 /// No height on Earth, whatever the unit: stands for "no data" where the raster does not say so.
 constexpr float kNoHeight = 1e5f;
+/// Heights that a file may hold for its size. Deflate, the usual packing, makes 1032 bytes of one at best, thus 258
+/// heights or 1032 codes of a byte; a file of many more is a header and nothing.
+constexpr std::uint64_t kMostCellsPerByte = 1032, kFreeCells = 1u << 22;
 constexpr double kSteepWall = 0.5;  // cosine of 60°
 
-HeightGrid read_heights(const std::filesystem::path& path, GDALDataset& dataset) {
+HeightGrid read_heights(const std::filesystem::path& path, std::uint64_t file_bytes, GDALDataset& dataset) {
     const auto fail = [&](std::string_view what) {
         throw InputError(fmt::format("{}: {} Write it anew with gdalwarp.", path.string(), what));
     };
@@ -32,6 +35,9 @@ HeightGrid read_heights(const std::filesystem::path& path, GDALDataset& dataset)
         fail("is no raster of two by two cells or more.");
     if (grid.columns > kLongestGrid || grid.rows > kLongestGrid)
         fail(fmt::format("has {} x {} cells; up to {} a side are read.", grid.columns, grid.rows, kLongestGrid));
+    if (grid.columns * grid.rows > kFreeCells + kMostCellsPerByte * file_bytes)
+        fail(fmt::format("has {} x {} cells in {} bytes: nearly all of it must be empty.", grid.columns, grid.rows,
+                         file_bytes));
     std::array<double, 6> place{};
     if (dataset.GetGeoTransform(place.data()) != CE_None) fail("does not say where it lies.");
     if (place[2] != 0.0 || place[4] != 0.0 || !(place[1] > 0.0) || !(place[5] < 0.0) ||
@@ -75,7 +81,7 @@ ReadFile read_raster(const std::filesystem::path& path, const ReadOptions& optio
     progress.begin("read " + assembly.name(), 1);
     const QuietErrors quiet;
     const DatasetPtr dataset = open_dataset(path, GDAL_OF_RASTER, kDrivers);
-    const HeightGrid grid = read_heights(path, *dataset);
+    const HeightGrid grid = read_heights(path, file.bytes, *dataset);
     const NamedSystem system = named_system(dataset->GetSpatialRef());
     if (progress.stop_requested()) throw Interrupted();
     ReadObject read;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <memory>
 
 #include "city/finding_codes.h"
@@ -91,16 +92,25 @@ class AppearanceReader {
                 make_finding("SB408", where, "its image is neither PNG nor JPEG; the base colour is used without it."));
             return;
         }
-        read_image(entry(document_.json(), "images", *source), texture, where);
+        read_image(*source, texture, where);
         material.texture = TextureId(result_.textures.size());
         result_.textures.push_back(std::move(texture));
     }
 
-    void read_image(const GltfJson& json, Texture& texture, const std::string& where) {
+    void read_image(std::size_t index, Texture& texture, const std::string& where) {
+        if (const auto known = embedded_.find(index); known != embedded_.end()) {
+            texture.uri = known->second.uri;
+            texture.embedded = known->second.embedded;
+            return;
+        }
+        const GltfJson& json = entry(document_.json(), "images", index);
         const std::string uri = text_at(json, "uri");
         std::shared_ptr<std::vector<std::uint8_t>> bytes;
         if (const auto view = index_at(json, "bufferView")) {
             const Bytes encoded = document_.view(*view);
+            embedded_bytes_ += encoded.size();
+            if (embedded_bytes_ > document_.byte_count())
+                throw GltfFault("its images name the same bytes again and again");
             bytes = std::make_shared<std::vector<std::uint8_t>>(encoded.begin(), encoded.end());
         } else if (uri.substr(0, 5) == "data:") {
             bytes = std::make_shared<std::vector<std::uint8_t>>(decode_data_uri(uri));
@@ -113,11 +123,14 @@ class AppearanceReader {
         hash.add({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
         texture.uri = fmt::format("{}#{:016x}", name_, hash.value());
         texture.embedded = std::move(bytes);
+        embedded_.emplace(index, texture);
     }
 
     const GltfDocument& document_;
     std::string name_;
     FindingLog& findings_;
+    std::map<std::size_t, Texture> embedded_;  // by the number of their image, which many materials may show
+    std::uint64_t embedded_bytes_ = 0;
     GltfAppearance result_;
 };
 

@@ -10,14 +10,7 @@
 #include <memory>
 
 namespace skybake::io {
-namespace {
-
-constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 32;
-/// What an empty mesh costs a decoder must not hang on a count that a stranger wrote: a triangle or vertex takes a
-/// share of a byte in the best of compressions, and 1/64 is beyond all of them.
-constexpr std::uint64_t kMostPerByte = 64;
-
-}  // namespace
+namespace {}  // namespace
 
 DracoMesh decode_draco(Bytes bytes) {
     draco::DecoderBuffer buffer;
@@ -55,7 +48,7 @@ std::vector<std::uint8_t> decode_meshopt(Bytes bytes, const GltfJson& extension)
     const bool is_attributes = mode == "ATTRIBUTES";
     const bool is_stride_good =
         is_attributes ? stride > 0 && stride % 4 == 0 && stride <= 256 : stride == 2 || stride == 4;
-    if (!is_stride_good || count > kMostBytes / stride || count / kMostPerByte > bytes.size())
+    if (!is_stride_good || count > kMostMeshoptExpansion * bytes.size() / stride)
         throw GltfFault("count or byteStride of EXT_meshopt_compression cannot be");
     if (mode == "TRIANGLES" && count % 3 != 0) throw GltfFault("a compressed triangle list has no whole triangles");
     std::vector<std::uint8_t> out(count * stride);

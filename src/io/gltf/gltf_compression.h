@@ -9,6 +9,9 @@
 
 namespace skybake::io {
 
+/// Bytes that a byte of meshopt data stands for at most: two bits say that sixteen bytes of a column repeat.
+inline constexpr std::uint64_t kMostMeshoptExpansion = 64;
+
 /// A mesh out of KHR_draco_mesh_compression.
 struct DracoMesh {
     std::vector<std::uint32_t> indices;  // three a triangle
@@ -25,7 +28,7 @@ struct DracoMesh {
 DracoMesh decode_draco(Bytes bytes);
 
 /// The bytes of a bufferView with EXT_meshopt_compression; `extension` is that member of the view. Throws GltfFault
-/// when they are damaged or larger than 4 GiB.
+/// when they are damaged, or too few for what they are said to hold.
 std::vector<std::uint8_t> decode_meshopt(Bytes bytes, const GltfJson& extension);
 
 }  // namespace skybake::io

@@ -10,6 +10,7 @@
 #include <cstring>
 
 #include "base/error.h"
+#include "io/assembly/file_format.h"
 #include "io/assembly/local_image.h"
 #include "io/file/replace_file.h"
 #include "io/gltf/gltf_compression.h"
@@ -216,22 +217,27 @@ void GltfDocument::check_extensions(const std::string& name) const {
 void GltfDocument::read_buffers(const std::string& name) {
     const GltfJson& list = member(json_, "buffers");
     for (std::size_t i = 0; list.is_array() && i < list.size(); ++i) {
-        const GltfJson& buffer = list[i];
-        const std::string uri = text_at(buffer, "uri");
-        std::vector<std::uint8_t>& bytes = buffers_.emplace_back();
+        const std::string uri = text_at(list[i], "uri");
+        buffers_.emplace_back();
         // A buffer without address is the binary chunk, or the stand-in for what is compressed (EXT_meshopt).
         if (uri.empty()) continue;
-        if (uri.substr(0, 5) == "data:") {
-            bytes = decode_data_uri(uri);
-            continue;
-        }
-        const std::optional<std::filesystem::path> path = path_below(folder_, decode_percent(uri));
-        if (!path || uri.find("://") != std::string::npos) {
-            throw InputError(fmt::format("{}: buffer '{}' lies outside the file's folder; refused. Put it below.", name,
-                                         uri.substr(0, 200)));
-        }
-        bytes = read_file(*path);
+        const auto [known, is_new] = buffer_files_.try_emplace(uri);
+        if (is_new) known->second = read_buffer(uri, name);
+        buffers_.back() = known->second;
     }
+    byte_count_ = file_.size();
+    for (const auto& [uri, bytes] : buffer_files_) byte_count_ += bytes.size();
+}
+
+std::vector<std::uint8_t> GltfDocument::read_buffer(const std::string& uri, const std::string& name) const {
+    if (uri.substr(0, 5) == "data:") return decode_data_uri(uri);
+    const std::optional<std::filesystem::path> path = path_below(folder_, decode_percent(uri));
+    if (!path || uri.find("://") != std::string::npos) {
+        throw InputError(fmt::format("{}: buffer '{}' lies outside the file's folder; refused. Put it below.", name,
+                                     uri.substr(0, 200)));
+    }
+    checked_file_size(*path);
+    return read_file(*path);
 }
 
 Bytes GltfDocument::view(std::size_t index) const {
@@ -243,13 +249,17 @@ Bytes GltfDocument::view(std::size_t index) const {
     const std::size_t buffer = index_at(place, "buffer").value_or(~std::size_t{0});
     if (buffer >= buffers_.size()) throw GltfFault(fmt::format("buffer of bufferViews[{}] does not exist", index));
     const bool is_chunk = buffer == 0 && binary_ && text_at(member(json_, "buffers")[0], "uri").empty();
-    const Bytes whole = is_chunk ? *binary_ : Bytes(buffers_[buffer]);
+    const Bytes whole = is_chunk ? *binary_ : buffers_[buffer];
     const std::size_t offset = index_or(place, "byteOffset", 0), length = index_or(place, "byteLength", 0);
     if (offset > whole.size() || length > whole.size() - offset)
         throw GltfFault(fmt::format("bufferViews[{}] reaches beyond the end of its buffer", index));
     const Bytes bytes = whole.subspan(offset, length);
     if (meshopt.is_null()) return bytes;
-    return decompressed_.emplace(index, decode_meshopt(bytes, meshopt)).first->second;
+    std::vector<std::uint8_t> decompressed = decode_meshopt(bytes, meshopt);
+    decompressed_bytes_ += decompressed.size();
+    if (decompressed_bytes_ > kMostMeshoptExpansion * byte_count_)
+        throw GltfFault("its bufferViews decompress the same bytes again and again");
+    return decompressed_.emplace(index, std::move(decompressed)).first->second;
 }
 
 }  // namespace skybake::io

@@ -56,18 +56,24 @@ class GltfDocument {
     const Vec3d& center() const { return center_; }
     /// Of the file itself, for its hash.
     Bytes file() const { return file_; }
+    /// Of the file and its buffers together.
+    std::uint64_t byte_count() const { return byte_count_; }
 
   private:
     void read_container(const std::string& name);
     void read_buffers(const std::string& name);
+    std::vector<std::uint8_t> read_buffer(const std::string& uri, const std::string& name) const;
     void check_extensions(const std::string& name) const;
 
     std::filesystem::path folder_;
     std::vector<std::uint8_t> file_;
     std::optional<Bytes> binary_;  // the GLB's own chunk
     GltfJson json_;
-    std::vector<std::vector<std::uint8_t>> buffers_;  // empty ones stand for the binary chunk
+    std::map<std::string, std::vector<std::uint8_t>> buffer_files_;  // by address, each once
+    std::vector<Bytes> buffers_;                                     // empty ones stand for the binary chunk
+    std::uint64_t byte_count_ = 0;
     mutable std::map<std::size_t, std::vector<std::uint8_t>> decompressed_;
+    mutable std::uint64_t decompressed_bytes_ = 0;
     Vec3d center_{0.0};
 };
 

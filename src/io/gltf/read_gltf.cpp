@@ -13,6 +13,7 @@
 #include "base/box.h"
 #include "base/error.h"
 #include "city/finding_codes.h"
+#include "io/assembly/corner_budget.h"
 #include "io/assembly/file_format.h"
 #include "io/assembly/mesh_objects.h"
 #include "io/gltf/gltf_accessor.h"
@@ -49,7 +50,8 @@ class GltfReader {
           findings_(findings),
           progress_(progress),
           assembly_(path, city, findings),
-          objects_(assembly_, path.stem().string()) {}
+          objects_(assembly_, path.stem().string()),
+          budget_(path.string(), document_.file().size()) {}
 
     ReadFile read() {
         ReadFile file;
@@ -170,6 +172,7 @@ class GltfReader {
             findings_.add(make_finding("SB102", where(place_), "points and lines have no surface; left out."));
             return;
         }
+        budget_.take(primitive.triangles.size());
         const std::optional<MaterialId> albedo = material_of(primitive, material);
         const bool is_textured = material && material->texture;
         const bool has_uvs =
@@ -270,6 +273,7 @@ class GltfReader {
     CityAssembly assembly_;
     MeshObjects objects_;
     GltfAppearance appearance_;
+    CornerBudget budget_;
     std::set<std::string> names_;
     std::string place_;  // of the primitive at hand, within the file
     Box3d extent_;

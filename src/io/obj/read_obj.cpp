@@ -7,6 +7,7 @@
 #include <fstream>
 #include <limits>
 #include <optional>
+#include <set>
 
 #include "base/error.h"
 #include "city/finding_codes.h"
@@ -96,7 +97,7 @@ class ObjReader {
             use_material(trim(rest));
         } else if (word == "mtllib") {
             const std::string uri(trim(rest));
-            read_mtl(uri, path_.parent_path(), place(), materials_, findings_);
+            if (libraries_.insert(uri).second) read_mtl(uri, path_.parent_path(), place(), materials_, findings_);
         } else if (word == "l" || word == "p") {
             tell("SB102", "points and lines have no surface; left out.");
         } else if (word == "curv" || word == "surf") {
@@ -202,6 +203,7 @@ class ObjReader {
     std::vector<Vec2f> uvs_;
     std::vector<Corner> corners_;
     ObjMaterials materials_;
+    std::set<std::string> libraries_;  // that were read
     std::optional<ObjMaterial> material_;
     std::optional<ObjectTerm> term_;
     std::string name_;
