@@ -189,7 +189,9 @@ Shot shot_of(const RenderOptions& options, const io::StoredBake& bake, const std
     return {orthographic_camera(position, target, width, reach, size), static_cast<double>(width) / size.x};
 }
 
-FalseColour scale_of(const RenderOptions& options, const Picture& measure, PictureKind kind) {
+FalseColour scale_of(const RenderOptions& options, const std::optional<ViewLink>& link, const Picture& measure,
+                     PictureKind kind) {
+    if (options.range.empty() && !options.is_logarithmic && link && link->scale) return *link->scale;
     FalseColour scale = kind == PictureKind::sky_view ? FalseColour{} : range_of(measure);
     if (options.is_logarithmic) scale.low = scale.high / 100.0;
     if (!options.range.empty()) {
@@ -276,6 +278,9 @@ int run_render(const RenderOptions& options, const CommonOptions& common) {
     Stopwatch watch;
     const io::StoredBake bake = io::open_bake(options.folder);
     const std::size_t instant = instant_of(bake, options.at, link);
+    if (options.at.empty() && link && link->is_between)
+        say(common, fmt::format("--camera: lies between two instants of the bake; shown is the nearer, {}.",
+                                bake.instants[instant].label));
     const PictureKind kind = !options.picture.empty() ? kind_of(options.picture)
                              : link && link->kind     ? *link->kind
                                                       : PictureKind::lit;
@@ -312,7 +317,7 @@ int run_render(const RenderOptions& options, const CommonOptions& common) {
     if (is_png) {
         Annotation annotation;
         if (is_measure(kind)) {
-            const FalseColour scale = scale_of(options, picture, kind);
+            const FalseColour scale = scale_of(options, link, picture, kind);
             picture = in_false_colours(picture, scale);
             annotation.legend = Legend{scale, legend_title(kind, parts)};
             json_range = {scale.low, scale.high};
