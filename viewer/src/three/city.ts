@@ -62,6 +62,10 @@ export async function loadCity(url: string, bytes: Uint8Array<ArrayBuffer>, page
     uSkyPage: { value: null },
     uSunPage: { value: null },
     uIndirectPage: { value: null },
+    uSkyPageB: { value: null },
+    uSunPageB: { value: null },
+    uIndirectPageB: { value: null },
+    uSkyViewPage: { value: null },
     uLampPage: { value: null },
     uPageSize: { value: new THREE.Vector2(size.width, size.height) },
   }));
@@ -97,6 +101,7 @@ export async function loadCity(url: string, bytes: Uint8Array<ArrayBuffer>, page
     for (let i = 0; i < charts.length; ++i) chartCount = Math.max(chartCount, (charts[i] ?? 0) + 1);
     const mesh = new THREE.Mesh(geometry, makeCityMaterial(lit.look, page, shared));
     mesh.name = lit.look.name;
+    mesh.userData = { page: lit.page };
     mesh.matrixAutoUpdate = false;
     group.add(mesh);
   }

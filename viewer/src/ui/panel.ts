@@ -5,7 +5,8 @@ import { text } from '../core/text';
 import { element } from './element';
 
 export interface PanelActions {
-  instant(index: number): void;
+  /** An instant, or a moment between two. */
+  moment(moment: number): void;
   picture(picture: Picture): void;
   mode(mode: Mode): void;
   view(index: number): void;
@@ -16,7 +17,9 @@ export interface PanelActions {
 }
 
 export interface PanelState {
-  instant: number;
+  moment: number;
+  /** What the moment is called. */
+  label: string;
   picture: Picture;
   mode: Mode;
   ev: number;
@@ -52,21 +55,23 @@ export class Panel {
   private readonly airLabel: HTMLElement;
   private airNote: string | null = null;
   private readonly sunNote: HTMLElement;
-  private shownInstant = 0;
+  private readonly between: HTMLOptionElement;
+  private shownMoment = 0;
 
   constructor(content: PanelContent, actions: PanelActions) {
     const last = content.instants.length - 1;
-    this.instantSelect = element('select', { id: 'instant' }, content.instants.map((label, i) => element('option', { value: String(i) }, [label])));
-    this.instantSelect.addEventListener('change', () => actions.instant(Number(this.instantSelect.value)));
-    this.instantSlider = element('input', { type: 'range', min: '0', max: String(last), step: '1', 'aria-label': text.instantSlider });
-    this.instantSlider.addEventListener('input', () => actions.instant(Number(this.instantSlider.value)));
+    this.between = element('option', { value: '', disabled: '', hidden: '' });
+    this.instantSelect = element('select', { id: 'instant' }, [...content.instants.map((label, i) => element('option', { value: String(i) }, [label])), this.between]);
+    this.instantSelect.addEventListener('change', () => actions.moment(Number(this.instantSelect.value)));
+    this.instantSlider = element('input', { type: 'range', min: '0', max: String(last), step: '0.05', 'aria-label': text.instantSlider });
+    this.instantSlider.addEventListener('input', () => actions.moment(Number(this.instantSlider.value)));
     this.earlier = element('button', { type: 'button', 'aria-label': text.previousInstant, title: `${text.previousInstant} (,)` }, ['‹']);
     this.later = element('button', { type: 'button', 'aria-label': text.nextInstant, title: `${text.nextInstant} (.)` }, ['›']);
-    this.earlier.addEventListener('click', () => actions.instant(Math.max(0, this.shownInstant - 1)));
-    this.later.addEventListener('click', () => actions.instant(Math.min(last, this.shownInstant + 1)));
+    this.earlier.addEventListener('click', () => actions.moment(Math.ceil(this.shownMoment) - 1));
+    this.later.addEventListener('click', () => actions.moment(Math.floor(this.shownMoment) + 1));
     this.sunNote = element('p', { class: 'note' });
 
-    const pictureGroup = element('div', { class: 'group' }, pictures.map((picture, i) => {
+    const pictureGroup = element('div', { class: 'group wraps' }, pictures.map((picture, i) => {
       const button = element('button', { type: 'button', title: `${text.pictureHints[picture]} (${i + 1})` }, [text.pictures[picture]]);
       button.addEventListener('click', () => actions.picture(picture));
       this.pictureButtons.set(picture, button);
@@ -146,19 +151,21 @@ export class Panel {
   }
 
   update(state: PanelState): void {
-    this.shownInstant = state.instant;
-    this.instantSelect.value = String(state.instant);
-    this.instantSlider.value = String(state.instant);
-    this.instantSlider.setAttribute('aria-valuetext', this.instantSelect.selectedOptions[0]?.text ?? '');
-    this.earlier.disabled = state.instant <= 0;
-    this.later.disabled = state.instant >= this.instantSelect.options.length - 1;
+    this.shownMoment = state.moment;
+    this.between.textContent = state.label;
+    this.between.hidden = Number.isInteger(state.moment);
+    this.instantSelect.value = this.between.hidden ? String(state.moment) : '';
+    this.instantSlider.value = String(state.moment);
+    this.instantSlider.setAttribute('aria-valuetext', state.label);
+    this.earlier.disabled = state.moment <= 0;
+    this.later.disabled = state.moment >= Number(this.instantSlider.max);
     for (const [picture, button] of this.pictureButtons) button.setAttribute('aria-pressed', String(picture === state.picture));
     for (const [mode, button] of this.modeButtons) button.setAttribute('aria-pressed', String(mode === state.mode));
     for (const [part, button] of this.partButtons) {
       button.hidden = !state.parts.includes(part);
       button.setAttribute('aria-pressed', String(!state.off.includes(part)));
     }
-    const isExposed = state.picture !== 'textures';
+    const isExposed = state.picture === 'lit' || state.picture === 'light';
     this.evSlider.value = String(state.ev);
     this.evSlider.disabled = !isExposed;
     this.evLabel.textContent = isExposed ? text.exposureValue(state.ev, state.exposure) : text.exposureUnused;
