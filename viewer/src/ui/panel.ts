@@ -1,7 +1,8 @@
 import { evRange } from '../core/exposure';
 import { lightParts, type LightPart } from '../core/light_parts';
 import { modes, pictures, type Mode, type Picture } from '../core/pictures';
-import { text } from '../core/text';
+import { text, texts } from '../core/text';
+import { language, languages } from '../core/text/language';
 import { element } from './element';
 
 export interface PanelActions {
@@ -136,7 +137,19 @@ export class Panel {
         this.airLabel,
       ]),
       element('p', { class: 'note' }, [text.baked(content.texelM)]),
+      element('div', { class: 'field row' }, [element('label', { for: 'language' }, [text.language]), this.makeLanguages()]),
     ]);
+  }
+
+  private makeLanguages(): HTMLSelectElement {
+    const select = element('select', { id: 'language' }, languages.map((name) => element('option', { value: name, lang: name }, [texts[name].languageName])));
+    select.value = language;
+    select.addEventListener('change', () => {
+      const address = new URL(location.href); // the part behind # restores the view
+      address.searchParams.set('lang', select.value);
+      location.assign(address);
+    });
+    return select;
   }
 
   show(isShown: boolean): void {
