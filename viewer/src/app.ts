@@ -1,4 +1,5 @@
 import { Bake, type BakedInstant } from './core/bake';
+import type { Comparison } from './core/comparison';
 import { clampEv } from './core/exposure';
 import { autoScale, skyViewScale, type FalseColour } from './core/false_colour';
 import { lightParts, type LightPart } from './core/light_parts';
@@ -12,6 +13,7 @@ import { Measuring } from './measuring';
 import { Viewer, type ViewerStats } from './three/viewer';
 import type { WalkKey } from './three/walk';
 import { element } from './ui/element';
+import { CompareBar } from './ui/compare_bar';
 import { Legend } from './ui/legend';
 import { ProgressNotice, showError } from './ui/notices';
 import { Panel } from './ui/panel';
@@ -40,6 +42,8 @@ export class App {
   /** Ranges that the user chose. */
   private readonly scales = new Map<Picture, FalseColour>();
   private bake: Bake | null = null;
+  private compareBar: CompareBar | null = null;
+  private comparison: { shown: Comparison; divider: number } = { shown: 'swipe', divider: 0.5 };
   private panel: Panel | null = null;
   private views: NamedView[] = [];
   private readonly canvas: HTMLCanvasElement;
@@ -80,6 +84,9 @@ export class App {
     this.progress.begin(text.loading(text.loadingParts.city), bake.bytesOf('city.glb'));
     await this.viewer.open(bake, this.progress.advance);
 
+    const compared = new URLSearchParams(location.search).get('compare');
+    if (compared !== null) await this.openOther(new URL('manifest.json', new URL(compared, document.baseURI)), title);
+
     this.views = [...manifest.views, 'birds-eye', 'on-foot'];
     this.panel = new Panel(
       {
@@ -105,6 +112,28 @@ export class App {
     this.listenForClicks();
     window.addEventListener('keydown', (event) => this.key(event));
     window.addEventListener('hashchange', () => this.restoreFromLink());
+  }
+
+  /** Loads the bake to compare with. Throws LoadError. */
+  private async openOther(url: URL, ownTitle: string): Promise<void> {
+    if (url.origin !== location.origin) throw new LoadError(url.href, text.error.otherOrigin);
+    this.progress.begin(text.loading(text.compare.part), null);
+    const other = await Bake.load(url.href, this.progress.advance);
+    if (other.manifest.instants.length === 0) throw new LoadError(url.href, text.error.noInstants);
+    this.progress.begin(text.loading(text.compare.part), other.bytesOf('city.glb'));
+    await this.viewer.openOther(other, this.progress.advance);
+    this.compareBar = new CompareBar({ a: ownTitle, b: other.manifest.title || text.untitled }, {
+      show: (shown) => this.compare({ shown, divider: this.comparison.divider }),
+      divide: (divider) => this.compare({ shown: this.comparison.shown, divider }),
+    });
+    document.body.append(this.compareBar.root, this.compareBar.divider);
+    document.body.classList.add('compares');
+  }
+
+  /** What is shown of two bakes. */
+  compare(comparison: { shown: Comparison; divider: number }): void {
+    this.comparison = comparison;
+    this.refresh();
   }
 
   /** Shows a baked instant, or the cross-fade of two for a moment between them. */
@@ -214,6 +243,7 @@ export class App {
     if (state.ev !== undefined) this.viewer.ev = clampEv(state.ev);
     if (state.air !== undefined) this.viewer.air = state.air;
     this.viewer.off = state.off ?? [];
+    if (state.comparison) this.comparison = state.comparison;
     if (state.position && state.target) {
       const isWalking = state.mode === 'walk' && this.viewer.walkFrom({ position: state.position, target: state.target });
       if (!isWalking) this.viewer.lookAt(state.position, state.target);
@@ -233,8 +263,13 @@ export class App {
   private applyScale(): void {
     const { picture } = this.viewer;
     if (!this.bake || !isMeasure(picture)) return;
-    const hint = this.bake.instant(Math.max(0, Math.round(this.viewer.moment))).exposure_hint;
-    this.viewer.scale = this.scales.get(picture) ?? (picture === 'sky-view' ? skyViewScale : autoScale(hint));
+    this.viewer.scale = this.scales.get(picture) ?? (picture === 'sky-view' ? skyViewScale : this.luxScale(this.bake));
+  }
+
+  /** A range of lux that suits the moment. */
+  private luxScale(bake: Bake): FalseColour {
+    const { exposure_hint: hint, sun } = bake.instant(Math.max(0, Math.round(this.viewer.moment)));
+    return autoScale(hint, sun.shape === 'none' ? 0 : luminance(sun.normal_illuminance_klx));
   }
 
   /** A click that is no drag measures. */
@@ -264,9 +299,20 @@ export class App {
       parts: this.bake?.partsOf(Math.round(moment)) ?? [], off: viewer.off,
     });
     this.legend.show(viewer.picture === 'illuminance' || viewer.picture === 'sky-view' ? text.legendTitle[viewer.picture] : null, viewer.scale);
-    this.help.textContent = text.help[viewer.mode];
+    this.showComparison();
+    this.help.textContent = text.help[viewer.mode] + (this.compareBar ? text.compare.keys : '');
     this.canvas.dataset['mode'] = viewer.mode;
     this.viewChanged();
+  }
+
+  private showComparison(): void {
+    if (!this.compareBar || !this.bake) return;
+    const { shown, divider } = this.comparison;
+    // A tenth of the range of lux: what a planned building takes from a street is seen.
+    const range = this.luxScale(this.bake).high / 10;
+    this.compareBar.update(shown, divider);
+    this.viewer.compare(shown, divider, range);
+    if (shown === 'difference') this.legend.showDifference(text.compare.legend, text.compare.legendNote, range);
   }
 
   private sunNote(index: number): string {
@@ -279,7 +325,7 @@ export class App {
   /** The part of the address that restores what is seen now. */
   private link(): string {
     const { viewer } = this;
-    return formatViewState({ ...viewer.view, mode: viewer.mode, picture: viewer.picture, moment: viewer.moment, ev: viewer.ev, air: viewer.air, off: viewer.off, scale: this.scales.get(viewer.picture) ?? null });
+    return formatViewState({ ...viewer.view, mode: viewer.mode, picture: viewer.picture, moment: viewer.moment, ev: viewer.ev, air: viewer.air, off: viewer.off, scale: this.scales.get(viewer.picture) ?? null, comparison: this.compareBar ? this.comparison : null });
   }
 
   private async copyLink(): Promise<void> {
@@ -311,6 +357,8 @@ export class App {
     else if (event.key === ',') void this.showMoment(Math.ceil(this.viewer.moment) - 1);
     else if (event.key === '.') void this.showMoment(Math.floor(this.viewer.moment) + 1);
     else if (event.key === 'Escape' && this.measuring.isOpen) this.measuring.close();
+    else if (this.compareBar && event.code === 'KeyB') this.compare({ ...this.comparison, shown: this.comparison.shown === 'b' ? 'a' : 'b' });
+    else if (this.compareBar && event.code === 'KeyC') this.compare({ ...this.comparison, shown: this.comparison.shown === 'swipe' ? 'difference' : 'swipe' });
     else if (event.code === 'KeyM') void this.measuring.at({ x: this.canvas.clientWidth / 2, y: this.canvas.clientHeight / 2 }, true);
     else if (event.key === '+' || event.key === '=') this.setEv(this.viewer.ev + 0.5);
     else if (event.key === '-') this.setEv(this.viewer.ev - 0.5);

@@ -63,7 +63,7 @@ export class Measuring {
       return;
     }
     const question = ++this.question;
-    this.place = sceneToWorld(picked.hit.point.toArray());
+    this.place = this.viewer.worldOf(picked);
     this.moveMarker();
     this.panel.showReading(null, isByKey);
     try {
@@ -109,13 +109,13 @@ export class Measuring {
     const { baked: { bake, moment }, hit, surface } = picked;
     const { manifest } = bake;
     const instant = Math.round(moment);
-    const page = Number((surface.mesh.userData as { page?: number }).page ?? 0);
-    const { width, height } = manifest.pages[page] ?? { width: 1, height: 1 };
-    const column = Math.min(width - 1, Math.floor(surface.lightUv.x * width));
-    const row = Math.min(height - 1, Math.floor(surface.lightUv.y * height));
+    const { page, column, row, width, height } = texelOf(picked);
     const middle = sceneToWorld(surface.pointAt(new THREE.Vector2((column + 0.5) / width, (row + 0.5) / height)).toArray());
     const normal = sceneToWorld(hit.normal.toArray());
-    const [light, objects] = await Promise.all([measure(bake, instant, page, column, row), bake.objects()]);
+    const twin = this.viewer.pickTwin(picked);
+    const [light, objects, twinLight] = await Promise.all([
+      measure(bake, instant, page, column, row), bake.objects(), twin && lightAt(twin),
+    ]);
     const owner = objects?.ownerOf(surface.chart) ?? null;
     const reflectance = reflectanceAt(surface);
     const onMap = middle.map((v, i) => v + (manifest.origin[i] ?? 0)) as [number, number, number];
@@ -130,6 +130,10 @@ export class Measuring {
       lx: light.total,
       parts: light.parts.map(({ part, lx }) => ({ name: text.partNames[part], lx })),
       facts: [
+        ...(twinLight === null ? [] : [
+          { name: this.viewer.isOther(picked) ? 'A' : 'B', value: text.measure.lux(twinLight) },
+          { name: text.measure.change, value: text.measure.signedLux((this.viewer.isOther(picked) ? 1 : -1) * (light.total - twinLight)) },
+        ]),
         ...factsOf(owner),
         { name: text.measure.skyView, value: light.skyViewFactor.toLocaleString(language, { maximumFractionDigits: 3 }) },
         { name: text.measure.reflectance, value: reflectance.toLocaleString(language, { maximumFractionDigits: 2 }) },
@@ -180,6 +184,19 @@ export class Measuring {
       chartNote: description,
     };
   }
+}
+
+/** The texel of the lightmap that holds the place. */
+function texelOf({ baked: { bake }, surface }: Picked): { page: number; column: number; row: number; width: number; height: number } {
+  const page = Number((surface.mesh.userData as { page?: number }).page ?? 0);
+  const { width, height } = bake.manifest.pages[page] ?? { width: 1, height: 1 };
+  const column = Math.min(width - 1, Math.floor(surface.lightUv.x * width));
+  return { page, column, row: Math.min(height - 1, Math.floor(surface.lightUv.y * height)), width, height };
+}
+
+async function lightAt(picked: Picked): Promise<number> {
+  const { page, column, row } = texelOf(picked);
+  return (await measure(picked.baked.bake, Math.round(picked.baked.moment), page, column, row)).total;
 }
 
 /** Every third hour of the local clock. */

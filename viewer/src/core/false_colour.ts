@@ -14,6 +14,9 @@ export const viridis: readonly (readonly [number, number, number])[] = [
   [68, 1, 84], [71, 45, 123], [59, 82, 139], [44, 114, 142], [33, 145, 140], [40, 174, 128], [94, 201, 98], [173, 220, 48], [253, 231, 37],
 ];
 
+/** Codes of the colours of a difference: darker, equal, brighter. Blue and orange are told apart by all eyes. */
+export const differenceColours: readonly (readonly [number, number, number])[] = [[20, 80, 190], [245, 245, 245], [200, 70, 10]];
+
 export function placeOf(scale: FalseColour, value: number): number {
   if (!scale.isLogarithmic) return (value - scale.low) / (scale.high - scale.low);
   return value > 0 ? Math.log(value / scale.low) / Math.log(scale.high / scale.low) : 0;
@@ -57,11 +60,13 @@ export function ticksOf(scale: FalseColour): number[] {
 export const skyViewScale: FalseColour = { low: 0, high: 1, isLogarithmic: false };
 
 /**
- * A range of lux for the light of an instant: two decades that end at 1, 2 or 5 times a power of ten, above three times the mean illuminance.
+ * A range of lux for the light of an instant: two decades that end at 1, 2 or 5 times a power of ten, above the beam on a surface that faces it with a tenth for the
+ * sky, and above the mean of all surfaces with a third.
  * @param hint the manifest's exposure_hint: 0.5 over the mean luminance of white surfaces, m²/kcd
+ * @param beamKlx illuminance by the sun alone of a surface that faces it
  */
-export function autoScale(hint: number): FalseColour {
-  const wanted = 3 * ((Math.PI * 0.5) / hint) * 1000;
+export function autoScale(hint: number, beamKlx: number): FalseColour {
+  const wanted = 1000 * Math.max(1.1 * beamKlx, 1.3 * ((Math.PI * 0.5) / hint));
   const power = 10 ** Math.floor(Math.log10(wanted));
   const high = Number((([1, 2, 5, 10].find((lead) => lead * power >= wanted * (1 - 1e-9)) ?? 10) * power).toPrecision(3));
   return { low: Number((high / 100).toPrecision(3)), high, isLogarithmic: true };

@@ -1,3 +1,4 @@
+import { isComparison, type Comparison } from './comparison';
 import type { FalseColour } from './false_colour';
 import { isMode, isPicture, type Mode, type Picture } from './pictures';
 import { isLightPart, type LightPart } from './light_parts';
@@ -18,6 +19,8 @@ export interface ViewState {
   off: readonly LightPart[];
   /** Range of the false colours; null: as the light suggests. */
   scale: FalseColour | null;
+  /** Of two bakes: what is shown of them, and where the divider stands (0…1); null with one bake. */
+  comparison: { shown: Comparison; divider: number } | null;
 }
 
 const metres = (v: Vec3) => v.map((c) => c.toFixed(2)).join(',');
@@ -25,9 +28,10 @@ const metres = (v: Vec3) => v.map((c) => c.toFixed(2)).join(',');
 export function formatViewState(state: ViewState): string {
   const off = state.off.length > 0 ? `&off=${state.off.join(',')}` : '';
   const scale = state.scale ? `&fc=${state.scale.low},${state.scale.high},${state.scale.isLogarithmic ? 'log' : 'lin'}` : '';
+  const comparison = state.comparison ? `&c=${state.comparison.shown},${state.comparison.divider.toFixed(3)}` : '';
   const instant = Math.round(state.moment);
   const fade = state.moment === instant ? '' : `&f=${(state.moment - instant).toFixed(2)}`; // from the nearest instant, which a still shows
-  return `#v=1&m=${state.mode}&p=${metres(state.position)}&t=${metres(state.target)}&s=${state.picture}&i=${instant}${fade}&ev=${state.ev.toFixed(1)}${state.air ? '' : '&a=0'}${off}${scale}`;
+  return `#v=1&m=${state.mode}&p=${metres(state.position)}&t=${metres(state.target)}&s=${state.picture}&i=${instant}${fade}&ev=${state.ev.toFixed(1)}${state.air ? '' : '&a=0'}${off}${scale}${comparison}`;
 }
 
 /** Reads what it understands and leaves out the rest: an old or hand-written link still opens the city. */
@@ -57,6 +61,8 @@ export function parseViewState(hash: string): Partial<ViewState> {
   const [low, high, kind] = (fields.get('fc') ?? '').split(',');
   const scale = { low: Number(low), high: Number(high), isLogarithmic: kind === 'log' };
   if (high !== undefined && scale.low < scale.high && Number.isFinite(scale.high) && (scale.low > 0 || !scale.isLogarithmic)) state.scale = scale;
+  const [shown, divider] = (fields.get('c') ?? '').split(',');
+  if (isComparison(shown) && Number(divider) >= 0 && Number(divider) <= 1) state.comparison = { shown, divider: Number(divider) };
   return state;
 }
 

@@ -7,7 +7,7 @@ import type { LightPart } from '../core/light_parts';
 import { LoadError } from '../core/load_error';
 import type { Picture } from '../core/pictures';
 import { text } from '../core/text';
-import { makeSharedUniforms, setFalseColour, setPartsOff, setPicture, type SharedUniforms } from './city_material';
+import { makeSharedUniforms, setFalseColour, setNumbersPicture, setPartsOff, setPicture, type SharedUniforms } from './city_material';
 import { loadCity, type City } from './city';
 import { CityRays } from './city_rays';
 import { Ground } from './ground';
@@ -35,6 +35,8 @@ export class BakedScene {
   private readonly pending = new Map<number, { light: Promise<LightTextures>; abort: AbortController }>();
   private wantedMoment = -1;
   private shownMoment = -1;
+  /** Another bake whose exposure this one takes, so that both can be compared. */
+  exposedAs: BakedScene | null = null;
   private isAirSeen = true;
   private picture: Picture = 'lit';
   private ev = 0;
@@ -123,6 +125,13 @@ export class BakedScene {
     this.applyDisplay();
   }
 
+  /** Draws the scene, or its lux and distances, from a camera in the frame of this bake. */
+  draw(renderer: THREE.WebGLRenderer, camera: THREE.Camera, what: 'picture' | 'numbers' = 'picture'): void {
+    if (what === 'numbers') setNumbersPicture(this.shared);
+    renderer.render(this.scene, camera);
+    setPicture(this.shared, this.picture);
+  }
+
   /** Whether the moment on show has air. */
   get hasAir(): boolean {
     return this.instantsOnShow().every((index) => this.bake.instant(index).air !== undefined) && this.shownMoment >= 0;
@@ -198,6 +207,10 @@ export class BakedScene {
     const onShow = this.instantsOnShow();
     if (onShow.length === 0) return;
     this.shared.uHasAir.value = this.isAirSeen && this.hasAir;
+    if (this.exposedAs) {
+      this.shared.uExposure.value = this.exposedAs.exposure;
+      return;
+    }
     const [a, b] = onShow.map((index) => this.bake.instant(index).exposure_hint);
     const blend = this.shared.uBlend.value;
     const hint = (a ?? 1) ** (1 - blend) * (b ?? 1) ** blend; // even in stops

@@ -5,6 +5,8 @@ import type { Picture } from '../core/pictures';
 import { airShader, makeAirUniforms, type AirUniforms } from './air';
 
 const pictureNumber: Record<Picture, number> = { lit: 0, textures: 1, light: 2, illuminance: 3, 'sky-view': 4 };
+/** Not for eyes: lux and distance, as differences need them. */
+const numbersPicture = 5;
 /** From this number on a picture shows a measure in false colours. */
 export const firstMeasure = pictureNumber.illuminance;
 
@@ -52,6 +54,10 @@ export function makeSharedUniforms(): SharedUniforms {
 
 export function setPicture(uniforms: SharedUniforms, picture: Picture): void {
   uniforms.uPicture.value = pictureNumber[picture];
+}
+
+export function setNumbersPicture(uniforms: SharedUniforms): void {
+  uniforms.uPicture.value = numbersPicture;
 }
 
 export function setFalseColour(uniforms: SharedUniforms, { low, high, isLogarithmic }: FalseColour): void {
@@ -202,6 +208,10 @@ void main() {
   vec3 illuminance = lightOf(uSkyPage, uSunPage, uIndirectPage, vScale, uSunKlx[0], level);
   if (uBlend > 0.0) illuminance = mix(illuminance, lightOf(uSkyPageB, uSunPageB, uIndirectPageB, vScaleB, uSunKlx[1], level), uBlend);
   if (vScale.w > 0.0) illuminance += uParts.w * textureLod(uLampPage, vLightUv, level).rgb * vScale.w;
+  if (uPicture == ${numbersPicture}) {
+    outColor = vec4(1000.0 * dot(illuminance, vec3(0.2126, 0.7152, 0.0722)), length(vPosition - cameraPosition), 0.0, 1.0);
+    return;
+  }
   if (uPicture == ${pictureNumber.illuminance}) {
     outColor = falseColour(1000.0 * dot(illuminance, vec3(0.2126, 0.7152, 0.0722)));
     return;

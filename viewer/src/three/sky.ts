@@ -35,6 +35,10 @@ const float kPi = 3.141592653589793;
 
 void main() {
   vec3 direction = normalize(vRay);
+  if (uPicture > ${firstMeasure} + 1) { // numbers: no surface
+    outColor = vec4(0.0);
+    return;
+  }
   if (uPicture >= ${firstMeasure}) { // measures: paper behind them, of a grey that the scale does not hold
     outColor = linearToOutputTexel(vec4(vec3(0.8), 1.0));
     return;

@@ -1,5 +1,6 @@
 import * as THREE from 'three';
 import type { Bake } from '../core/bake';
+import { momentOfOther, type Comparison } from '../core/comparison';
 import type { FalseColour } from '../core/false_colour';
 import type { OnBytes } from '../core/fetch';
 import type { LightPart } from '../core/light_parts';
@@ -7,6 +8,7 @@ import type { Mode, Picture } from '../core/pictures';
 import { sceneToWorld, worldToScene, type Vec3 } from '../core/units';
 import { BakedScene } from './baked_scene';
 import type { Hit, SurfacePoint } from './city_rays';
+import { DifferencePass } from './difference';
 import { OrbitMode } from './orbit';
 import { WalkMode, type WalkKey } from './walk';
 
@@ -43,6 +45,13 @@ export class Viewer {
   private orbit: OrbitMode | null = null;
   private walk: WalkMode | null = null;
   private baked: BakedScene | null = null;
+  private other: BakedScene | null = null;
+  /** From the frame of the first bake into that of the other. */
+  private readonly shift = new THREE.Vector3();
+  private comparison: Comparison = 'swipe';
+  private divider = 0.5;
+  private differenceLx = 1;
+  private difference: DifferencePass | null = null;
   private partsOff: readonly LightPart[] = [];
   private currentMode: Mode = 'orbit';
   private currentPicture: Picture = 'lit';
@@ -63,7 +72,7 @@ export class Viewer {
     // Of AgX, Khronos neutral and ACES the first keeps shadows that only the sky lights readable beside sunlit walls.
     this.renderer.toneMapping = THREE.AgXToneMapping;
     this.renderer.toneMappingExposure = 1; // the shaders multiply by uExposure themselves
-    this.renderer.info.autoReset = true;
+    this.renderer.info.autoReset = false; // a frame may be two pictures
     canvas.addEventListener('webglcontextlost', (event) => {
       event.preventDefault();
       options.onContextLost();
@@ -81,14 +90,35 @@ export class Viewer {
     this.lookAt(this.birdsEye().position, this.birdsEye().target);
   }
 
+  /** Loads a second bake to compare with. Throws LoadError. */
+  async openOther(bake: Bake, onBytes: OnBytes): Promise<void> {
+    if (!this.baked) throw new Error('no city is open');
+    const other = await BakedScene.open(bake, this.renderer.capabilities.getMaxAnisotropy(), onBytes);
+    other.exposedAs = this.baked;
+    const [ownOrigin, otherOrigin] = [this.baked.bake.manifest.origin, bake.manifest.origin];
+    this.shift.fromArray(worldToScene([0, 1, 2].map((i) => (ownOrigin[i] ?? 0) - (otherOrigin[i] ?? 0)) as unknown as Vec3));
+    this.other = other;
+  }
+
+  /** What is shown of two bakes, and where the divider stands, 0…1 from the left. */
+  compare(comparison: Comparison, divider: number, differenceLx: number): void {
+    this.comparison = comparison;
+    this.divider = divider;
+    this.differenceLx = differenceLx;
+    this.changed();
+  }
+
   /**
    * Loads and shows an instant, or the cross-fade of two neighbours for a moment between them. A later call overtakes an earlier one.
    * Returns false when it was overtaken. Throws LoadError.
    */
   async showMoment(moment: number, onBytes: OnBytes): Promise<boolean> {
     if (!this.baked) throw new Error('no city is open');
-    if (!(await this.baked.showMoment(moment, onBytes))) return false;
-    this.changed();
+    const { baked, other } = this;
+    const shown = [baked.showMoment(moment, onBytes)];
+    if (other) shown.push(other.showMoment(momentOfOther(baked.bake.manifest.instants, other.bake.manifest.instants, moment), onBytes));
+    if ((await Promise.all(shown)).includes(false)) return false;
+    this.applyDisplay();
     return true;
   }
 
@@ -99,7 +129,7 @@ export class Viewer {
 
   /** Instants that are not at hand for a moment. */
   missingFor(moment: number): number[] {
-    return this.baked?.missingFor(moment) ?? [];
+    return this.baked?.missingFor(moment) ?? []; // the other bake's come along
   }
 
   get picture(): Picture {
@@ -160,19 +190,42 @@ export class Viewer {
     this.changed();
   }
 
-  /** The surface at a place of the canvas, CSS pixels from its upper left corner; null where the sky is. */
+  /** The surface at a place of the canvas, CSS pixels from its upper left corner, of the bake that is seen there; null where the sky is. */
   pick(x: number, y: number): Picked | null {
-    const { baked } = this;
+    const { clientWidth } = this.canvas;
+    const isOther = this.other !== null && (this.comparison === 'b' || (this.comparison === 'swipe' && x > this.divider * clientWidth));
+    const baked = isOther ? this.other : this.baked;
     if (!baked) return null;
-    const { clientWidth, clientHeight } = this.canvas;
+    const { origin, direction } = this.rayAt(x, y);
+    if (isOther) origin.add(this.shift);
+    return pickOf(baked, origin, direction);
+  }
+
+  /** The same place of the other bake, where its surface is there, too. */
+  pickTwin({ baked, hit }: Picked): Picked | null {
+    if (!this.other || !this.baked) return null;
+    const twin = baked === this.baked ? this.other : this.baked;
+    const shift = this.shift.clone().multiplyScalar(twin === this.other ? 1 : -1);
+    const above = 0.05; // metres: closer than two surfaces of a city stand
+    const found = pickOf(twin, hit.point.clone().add(shift).addScaledVector(hit.normal, above), hit.normal.clone().negate());
+    return found && found.hit.distance < 2 * above ? found : null;
+  }
+
+  /** A point of a bake's scene as a world position of the first. */
+  worldOf({ baked, hit }: Picked): Vec3 {
+    const point = hit.point.clone();
+    return sceneToWorld((baked === this.other ? point.sub(this.shift) : point).toArray());
+  }
+
+  isOther(picked: Picked): boolean {
+    return picked.baked === this.other;
+  }
+
+  private rayAt(x: number, y: number): THREE.Ray {
     const raycaster = new THREE.Raycaster();
     this.camera.updateMatrixWorld();
-    raycaster.setFromCamera(new THREE.Vector2((2 * x) / clientWidth - 1, 1 - (2 * y) / clientHeight), this.camera);
-    const hit = baked.rays.first(raycaster.ray.origin, raycaster.ray.direction);
-    if (!hit) return null;
-    if (hit.normal.dot(raycaster.ray.direction) > 0) hit.normal.negate(); // the side that is seen
-    const surface = baked.rays.surfaceAt(hit);
-    return surface && { baked, hit, surface };
+    raycaster.setFromCamera(new THREE.Vector2((2 * x) / this.canvas.clientWidth - 1, 1 - (2 * y) / this.canvas.clientHeight), this.camera);
+    return raycaster.ray;
   }
 
   /** Where a world position is on the canvas, CSS pixels; null behind the camera. */
@@ -279,7 +332,7 @@ export class Viewer {
 
   stats(): ViewerStats {
     const { render, memory } = this.renderer.info;
-    return { frames: this.frames, drawCalls: render.calls, triangles: this.baked?.city.triangleCount ?? 0, textures: memory.textures, geometries: memory.geometries, lightBytes: this.baked?.lightBytes ?? 0 };
+    return { frames: this.frames, drawCalls: render.calls, triangles: this.baked?.city.triangleCount ?? 0, textures: memory.textures, geometries: memory.geometries, lightBytes: (this.baked?.lightBytes ?? 0) + (this.other?.lightBytes ?? 0) };
   }
 
   /** Draws now and waits for the graphics card; returns milliseconds. */
@@ -309,8 +362,10 @@ export class Viewer {
 
   private applyDisplay(): void {
     this.changed();
-    const shown = this.baked?.show(this.currentPicture, this.currentEv, this.isAirSeen, this.partsOff, this.currentScale);
-    shown?.then(() => this.changed(), this.options.onError);
+    const show = async (): Promise<void> => {
+      for (const baked of [this.baked, this.other]) await baked?.show(this.currentPicture, this.currentEv, this.isAirSeen, this.partsOff, this.currentScale);
+    };
+    show().then(() => this.changed(), this.options.onError);
   }
 
   /** Something changed: one frame is drawn, at most one a refresh of the screen. */
@@ -331,8 +386,33 @@ export class Viewer {
 
   private draw(): void {
     if (!this.baked || this.moment < 0) return; // no picture before the first light
-    this.renderer.render(this.baked.scene, this.camera);
+    this.renderer.info.reset();
+    if (!this.other || this.other.moment < 0 || this.comparison === 'a') this.baked.draw(this.renderer, this.camera);
+    else this.drawBoth(this.baked, this.other);
     ++this.frames;
+  }
+
+  private drawBoth(baked: BakedScene, other: BakedScene): void {
+    const { renderer, camera } = this;
+    camera.updateMatrixWorld();
+    const otherCamera = camera.clone();
+    otherCamera.position.add(this.shift);
+    otherCamera.updateMatrixWorld();
+    if (this.comparison === 'b') {
+      other.draw(renderer, otherCamera);
+    } else if (this.comparison === 'difference') {
+      this.difference ??= new DifferencePass();
+      this.difference.draw(renderer, this.differenceLx, (which) => (which === 0 ? baked.draw(renderer, camera, 'numbers') : other.draw(renderer, otherCamera, 'numbers')));
+    } else {
+      const { clientWidth, clientHeight } = this.canvas;
+      const left = Math.round(this.divider * clientWidth);
+      renderer.setScissorTest(true);
+      renderer.setScissor(0, 0, left, clientHeight);
+      baked.draw(renderer, camera);
+      renderer.setScissor(left, 0, clientWidth - left, clientHeight);
+      other.draw(renderer, otherCamera);
+      renderer.setScissorTest(false);
+    }
   }
 
   private resize(): void {
@@ -351,6 +431,16 @@ export class Viewer {
     this.orbit?.dispose();
     this.walk?.dispose();
     this.baked?.dispose();
+    this.other?.dispose();
+    this.difference?.dispose();
     this.renderer.dispose();
   }
+}
+
+function pickOf(baked: BakedScene, origin: THREE.Vector3, direction: THREE.Vector3): Picked | null {
+  const hit = baked.rays.first(origin, direction);
+  if (!hit) return null;
+  if (hit.normal.dot(direction) > 0) hit.normal.negate(); // the side that is seen
+  const surface = baked.rays.surfaceAt(hit);
+  return surface && { baked, hit, surface };
 }

@@ -1,4 +1,4 @@
-import { colourOf, placeOf, ticksOf, type FalseColour } from '../core/false_colour';
+import { colourOf, differenceColours, placeOf, ticksOf, type FalseColour } from '../core/false_colour';
 import { text } from '../core/text';
 import { language } from '../core/text/language';
 import { element } from './element';
@@ -14,6 +14,7 @@ export class Legend {
   private readonly low: HTMLInputElement;
   private readonly high: HTMLInputElement;
   private readonly log: HTMLInputElement;
+  private readonly row = element('div', { class: 'row' });
   private readonly fault = element('p', { class: 'note', role: 'status' });
 
   constructor(onChange: (scale: FalseColour) => void) {
@@ -28,20 +29,26 @@ export class Legend {
       if (isGood) onChange(scale);
     };
     for (const input of [this.low, this.high, this.log]) input.addEventListener('change', read);
-    this.root = element('section', { class: 'legend', hidden: '' }, [
-      this.title, this.bar, this.ticks,
-      element('div', { class: 'row' }, [
-        element('label', { for: 'scale-low' }, [text.legendLow]), this.low,
-        element('label', { for: 'scale-high' }, [text.legendHigh]), this.high,
-        this.log, element('label', { for: 'scale-log' }, [text.legendLog]),
-      ]),
-      this.fault,
-    ]);
+    this.row.append(
+      element('label', { for: 'scale-low' }, [text.legendLow]), this.low,
+      element('label', { for: 'scale-high' }, [text.legendHigh]), this.high,
+      this.log, element('label', { for: 'scale-log' }, [text.legendLog]),
+    );
+    this.root = element('section', { class: 'legend', hidden: '' }, [this.title, this.bar, this.ticks, this.row, this.fault]);
+  }
+
+  /** The scale of a difference: from −range over 0 to +range, which only its end says. */
+  showDifference(title: string, note: string, range: number): void {
+    this.show(title, { low: -range, high: range, isLogarithmic: false });
+    this.bar.style.background = `linear-gradient(to right, ${differenceColours.map((code) => `rgb(${code.join(' ')})`).join(', ')})`;
+    this.row.hidden = true;
+    this.fault.textContent = note;
   }
 
   /** @param title null: nothing to explain */
   show(title: string | null, scale: FalseColour): void {
     this.root.hidden = title === null;
+    this.row.hidden = false;
     if (title === null) return;
     this.title.textContent = title;
     this.root.setAttribute('aria-label', title);

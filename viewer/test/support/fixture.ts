@@ -34,6 +34,9 @@ const boxes: Box[] = [
   { min: [10, -30, 0], max: [22, -14, 24], material: 1 },
 ];
 
+/** Those that stand in the bake that is being written. */
+let standing = boxes;
+
 /** Thick haze, so that a hundred metres are seen to matter. */
 export function fixtureAir(instant: number): NonNullable<Instant['air']> {
   return {
@@ -98,7 +101,7 @@ function faces(): { page: number; face: Face }[] {
   const ground: Face = { corner: [-60, 60, 0], u: [120, 0, 0], v: [0, -120, 0], normal: [0, 0, 1], material: 0 };
   const [cx, cy, cz] = whiteCard.center;
   const card: Face = { corner: [cx - 2, cy, cz + 2], u: [4, 0, 0], v: [0, 0, -4], normal: [0, -1, 0], material: 3, light: { sky: whiteCard.skyKlx, sunCosine: whiteCard.sunCosine } };
-  return [{ page: 0, face: ground }, ...boxes.flatMap(boxFaces).map((face) => ({ page: 1, face })), { page: 1, face: card }];
+  return [{ page: 0, face: ground }, ...standing.flatMap(boxFaces).map((face) => ({ page: 1, face })), { page: 1, face: card }];
 }
 
 function hitsBox(from: V3, direction: V3, box: Box): boolean {
@@ -114,7 +117,7 @@ function hitsBox(from: V3, direction: V3, box: Box): boolean {
   return true;
 }
 
-const isFree = (from: V3, direction: V3) => !boxes.some((box) => hitsBox(from, direction, box));
+const isFree = (from: V3, direction: V3) => !standing.some((box) => hitsBox(from, direction, box));
 
 function sunDirection(azimuthDeg: number, elevationDeg: number): V3 {
   const [a, e] = [(azimuthDeg * Math.PI) / 180, (elevationDeg * Math.PI) / 180];
@@ -226,8 +229,9 @@ function skyViewOf(chart: Chart | undefined): number {
   return chart.page === 0 ? 0.8 : chart.face.normal[2] > 0.5 ? 1 : 0.4;
 }
 
-/** Writes the bake into an empty folder. */
-export function writeFixture(folder: string): Manifest {
+/** Writes the bake into an empty folder; before the third house was built, when asked for. */
+export function writeFixture(folder: string, time: 'before' | 'after' = 'after'): Manifest {
+  standing = time === 'before' ? boxes.slice(0, 2) : boxes;
   const { charts, pages } = pack();
   fs.mkdirSync(path.join(folder, 'light'), { recursive: true });
   const written = new Map<string, number>();
@@ -354,7 +358,7 @@ export function writeFixture(folder: string): Manifest {
     format: 'skybake-bake',
     version: 1,
     generator: { name: 'skybake viewer fixture', version: '1' },
-    title: 'Three houses',
+    title: time === 'before' ? 'Two houses' : 'Three houses',
     crs: '',
     site: { latitude_deg: 47, longitude_deg: 15.4 },
     convergence_deg: 0,

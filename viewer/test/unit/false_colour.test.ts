@@ -20,6 +20,6 @@ test('ticks are round, as on the stills', () => {
 
 test('the range follows the light: day and night', () => {
   // A mean of 20 klx: hint = 0.5 / (20 klx / π).
-  expect(autoScale((0.5 * Math.PI) / 20)).toEqual({ low: 1000, high: 100000, isLogarithmic: true });
-  expect(autoScale((0.5 * Math.PI) / 0.007)).toEqual({ low: 0.5, high: 50, isLogarithmic: true });
+  expect(autoScale((0.5 * Math.PI) / 20, 80)).toEqual({ low: 1000, high: 100000, isLogarithmic: true });
+  expect(autoScale((0.5 * Math.PI) / 0.03, 0)).toEqual({ low: 0.5, high: 50, isLogarithmic: true });
 });
