@@ -22,6 +22,8 @@ import { Panel } from './ui/panel';
 const highestWalker = 4;
 const linkIntervalMs = 300;
 const noticeMs = 5000;
+/** The settings would cover most of a page that is narrower, CSS pixels. */
+const narrowPage = 700;
 /** A pointer that moved less than this between down and up has clicked, CSS pixels. */
 const clickSlack = 4;
 
@@ -102,11 +104,13 @@ export class App {
         view: (index) => this.showView(index),
         ev: (ev) => this.setEv(ev),
         copyLink: () => void this.copyLink(),
+        savePicture: () => void this.savePicture(),
         air: (isSeen) => this.setAir(isSeen),
         part: (part, isOn) => this.switchPart(part, isOn),
       },
     );
     document.body.append(this.panel.opener, this.panel.root, this.measuring.panel.root, this.legend.root, this.makePad(), this.measuring.marker);
+    if (innerWidth < narrowPage) this.panel.show(false); // a phone shows the city first
     this.restore(parseViewState(location.hash));
     await this.showMoment(this.momentOfLink());
     this.listenForClicks();
@@ -337,6 +341,14 @@ export class App {
     } catch {
       this.tell(text.linkNotCopied); // no clipboard over plain http, or the user forbade it
     }
+  }
+
+  /** Offers what is seen as a PNG. */
+  private async savePicture(): Promise<void> {
+    const picture = await this.viewer.picturePng();
+    const link = element('a', { download: `${document.title.replace(/[^\p{L}\p{N}]+/gu, '-')}.png`, href: URL.createObjectURL(picture) });
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 60_000); // the browser has its copy long before
   }
 
   /** Writes the link at most a few times a second: browsers refuse more. */

@@ -17,6 +17,10 @@ export interface City {
   group: THREE.Group;
   pages: PageUniforms[];
   triangleCount: number;
+  /** Primitives of the file, before those of one look and page were joined. */
+  primitiveCount: number;
+  /** Albedo textures on the graphics card, with their mip levels. */
+  textureBytes: number;
   chartCount: number;
   bounds: THREE.Box3;
   dispose(): void;
@@ -105,10 +109,14 @@ export async function loadCity(url: string, bytes: Uint8Array<ArrayBuffer>, page
     mesh.matrixAutoUpdate = false;
     group.add(mesh);
   }
+  const maps = new Set([...parts.values()].flatMap(({ lit }) => (lit.look.map ? [lit.look.map] : [])));
+  const sizes = [...maps].map(({ image }) => (image as ImageBitmap).width * (image as ImageBitmap).height);
   return {
     group,
     pages,
     triangleCount,
+    primitiveCount: [...parts.values()].reduce((sum, { meshes }) => sum + meshes.length, 0),
+    textureBytes: Math.round(((4 * 4) / 3) * sizes.reduce((sum, pixels) => sum + pixels, 0)),
     chartCount,
     bounds,
     dispose() {

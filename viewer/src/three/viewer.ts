@@ -26,8 +26,11 @@ export interface ViewerStats {
   triangles: number;
   textures: number;
   geometries: number;
-  /** Lightmaps on the graphics card. */
+  /** Of city.glb, before joining. */
+  primitives: number;
+  /** Lightmaps, and albedo textures, on the graphics card. */
   lightBytes: number;
+  textureBytes: number;
 }
 
 /** What a click met: the surface of one of the bakes. Scene coordinates of that bake. */
@@ -332,7 +335,15 @@ export class Viewer {
 
   stats(): ViewerStats {
     const { render, memory } = this.renderer.info;
-    return { frames: this.frames, drawCalls: render.calls, triangles: this.baked?.city.triangleCount ?? 0, textures: memory.textures, geometries: memory.geometries, lightBytes: (this.baked?.lightBytes ?? 0) + (this.other?.lightBytes ?? 0) };
+    const all = [this.baked, this.other].filter((baked) => baked !== null);
+    const sum = (of: (baked: BakedScene) => number): number => all.reduce((total, baked) => total + of(baked), 0);
+    return {
+      frames: this.frames, drawCalls: render.calls, textures: memory.textures, geometries: memory.geometries,
+      triangles: sum(({ city }) => city.triangleCount),
+      primitives: sum(({ city }) => city.primitiveCount),
+      lightBytes: sum(({ lightBytes }) => lightBytes),
+      textureBytes: sum(({ city }) => city.textureBytes),
+    };
   }
 
   /** Draws now and waits for the graphics card; returns milliseconds. */
@@ -342,6 +353,12 @@ export class Viewer {
     const gl = this.renderer.getContext();
     gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
     return performance.now() - begun;
+  }
+
+  /** Draws now; what is seen as a PNG. */
+  picturePng(): Promise<Blob> {
+    this.draw();
+    return new Promise((resolve, reject) => this.canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error('no PNG'))), 'image/png'));
   }
 
   /** Draws now and reads a block of pixels, 0…255, from the upper left corner of the canvas in device pixels. */

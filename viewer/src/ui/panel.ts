@@ -13,6 +13,7 @@ export interface PanelActions {
   view(index: number): void;
   ev(ev: number): void;
   copyLink(): void;
+  savePicture(): void;
   air(isSeen: boolean): void;
   part(part: LightPart, isOn: boolean): void;
 }
@@ -105,6 +106,8 @@ export class Panel {
 
     const copyLink = element('button', { type: 'button', title: text.copyLinkHint }, [text.copyLink]);
     copyLink.addEventListener('click', () => actions.copyLink());
+    const savePicture = element('button', { type: 'button', title: text.savePictureHint }, [text.savePicture]);
+    savePicture.addEventListener('click', () => actions.savePicture());
     this.airSwitch = element('input', { type: 'checkbox', id: 'air', title: `${text.airHint} (F)` });
     this.airSwitch.addEventListener('change', () => actions.air(this.airSwitch.checked));
     this.airLabel = element('span', { class: 'label' });
@@ -125,7 +128,7 @@ export class Panel {
       element('fieldset', { class: 'field' }, [element('legend', {}, [text.picture]), pictureGroup]),
       element('fieldset', { class: 'field' }, [element('legend', {}, [text.parts]), partGroup]),
       element('fieldset', { class: 'field' }, [element('legend', {}, [text.navigation]), modeGroup]),
-      element('div', { class: 'field' }, [element('label', { for: 'view' }, [text.views]), element('div', { class: 'row' }, [this.viewSelect, copyLink])]),
+      element('div', { class: 'field' }, [element('label', { for: 'view' }, [text.views]), element('div', { class: 'row' }, [this.viewSelect]), element('div', { class: 'row below' }, [copyLink, savePicture])]),
       element('div', { class: 'field' }, [
         element('label', { for: 'ev' }, [text.exposure]),
         element('div', { class: 'row' }, [this.evSlider, evReset]),

@@ -53,6 +53,8 @@ export const german: Text = {
   exposureUnused: 'nicht verwendet: dieses Bild hat kein Licht',
   copyLink: 'Link kopieren',
   copyLinkHint: 'Kopiert die Adresse genau dieser Ansicht, für andere und für „skybake render --camera“',
+  savePicture: 'Bild sichern',
+  savePictureHint: 'Was zu sehen ist, als PNG; für den Druck „skybake render --camera“ mit dem Link',
   linkCopied: 'Der Link zu dieser Ansicht ist kopiert.',
   linkNotCopied: 'Dieser Browser lässt hier keine Seite kopieren: Nehmen Sie den Link aus der Adresszeile.',
   air: 'Luft',

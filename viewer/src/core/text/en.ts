@@ -52,6 +52,8 @@ export const english = {
   exposureUnused: 'not used: no light in this picture',
   copyLink: 'Copy link',
   copyLinkHint: 'Copies the address of this very view, for others and for “skybake render --camera”',
+  savePicture: 'Save picture',
+  savePictureHint: 'What is seen, as a PNG; for print sizes use “skybake render --camera” with the link',
   linkCopied: 'The link to this view is copied.',
   linkNotCopied: 'This browser lets no page copy here: take the link from the address bar.',
   air: 'Air',
