@@ -5,9 +5,9 @@ export function number(value: number, digits: number): string {
   return new Intl.NumberFormat(language, { minimumFractionDigits: digits, maximumFractionDigits: digits }).format(value);
 }
 
-/** Four digits that count. */
+/** Four digits that count, and no more than tenths. */
 export function significant(value: number): string {
-  return new Intl.NumberFormat(language, { maximumSignificantDigits: 4 }).format(value);
+  return new Intl.NumberFormat(language, value < 1000 ? { maximumFractionDigits: 1 } : { maximumSignificantDigits: 4 }).format(value);
 }
 
 export function formatBytes(bytes: number): string {
