@@ -22,6 +22,9 @@ import { Panel } from './ui/panel';
 const highestWalker = 4;
 const linkIntervalMs = 300;
 const noticeMs = 5000;
+/** A baked time lasts two and a half seconds while they play. */
+const playStep = 0.04;
+const playIntervalMs = 100;
 /** The settings would cover most of a page that is narrower, CSS pixels. */
 const narrowPage = 700;
 /** A pointer that moved less than this between down and up has clicked, CSS pixels. */
@@ -53,6 +56,7 @@ export class App {
   private readonly said = element('p', { class: 'said', role: 'status' });
   private readonly notice = element('p', { class: 'progress', role: 'alert', hidden: '' });
   private noticeTimer: number | null = null;
+  private playTimer: number | null = null;
   private readonly help = element('p', { class: 'help' });
   private linkTimer: number | null = null;
 
@@ -98,19 +102,23 @@ export class App {
         texelM: manifest.texel_m,
       },
       {
-        moment: (moment) => void this.showMoment(moment),
+        moment: (moment) => {
+          this.play(false); // the user's hand goes first
+          void this.showMoment(moment);
+        },
         picture: (picture) => this.setPicture(picture),
         mode: (mode) => this.setMode(mode),
         view: (index) => this.showView(index),
         ev: (ev) => this.setEv(ev),
         copyLink: () => void this.copyLink(),
+        play: () => this.play(this.playTimer === null),
         savePicture: () => void this.savePicture(),
         air: (isSeen) => this.setAir(isSeen),
         part: (part, isOn) => this.switchPart(part, isOn),
       },
     );
     document.body.append(this.panel.opener, this.panel.root, this.measuring.panel.root, this.legend.root, this.makePad(), this.measuring.marker);
-    if (innerWidth < narrowPage) this.panel.show(false); // a phone shows the city first
+    if (innerWidth < narrowPage && matchMedia('(pointer: coarse)').matches) this.panel.show(false); // a phone shows the city first
     this.restore(parseViewState(location.hash));
     await this.showMoment(this.momentOfLink());
     this.listenForClicks();
@@ -166,6 +174,21 @@ export class App {
     this.panel?.setAirNote(airNote(bake.instant(nearest)));
     this.applyScale();
     this.refresh();
+  }
+
+  /** Runs through the baked times, again and again; a step waits until the one before is shown. */
+  private play(isPlaying: boolean): void {
+    if (this.playTimer !== null) clearTimeout(this.playTimer);
+    this.playTimer = null;
+    this.panel?.showPlaying(isPlaying);
+    if (!isPlaying) return;
+    const last = (this.bake?.manifest.instants.length ?? 1) - 1;
+    const step = async (): Promise<void> => {
+      const { moment } = this.viewer;
+      await this.showMoment(moment >= last ? 0 : Math.min(last, moment + playStep));
+      if (this.playTimer !== null) this.playTimer = window.setTimeout(() => void step(), playIntervalMs);
+    };
+    this.playTimer = window.setTimeout(() => void step(), playIntervalMs);
   }
 
   setPicture(picture: Picture): void {

@@ -14,6 +14,7 @@ export interface PanelActions {
   ev(ev: number): void;
   copyLink(): void;
   savePicture(): void;
+  play(): void;
   air(isSeen: boolean): void;
   part(part: LightPart, isOn: boolean): void;
 }
@@ -47,6 +48,7 @@ export class Panel {
   private readonly instantSlider: HTMLInputElement;
   private readonly earlier: HTMLButtonElement;
   private readonly later: HTMLButtonElement;
+  private readonly playButton: HTMLButtonElement;
   private readonly pictureButtons = new Map<Picture, HTMLButtonElement>();
   private readonly partButtons = new Map<LightPart, HTMLButtonElement>();
   private readonly modeButtons = new Map<Mode, HTMLButtonElement>();
@@ -71,6 +73,8 @@ export class Panel {
     this.later = element('button', { type: 'button', 'aria-label': text.nextInstant, title: `${text.nextInstant} (.)` }, ['›']);
     this.earlier.addEventListener('click', () => actions.moment(Math.ceil(this.shownMoment) - 1));
     this.later.addEventListener('click', () => actions.moment(Math.floor(this.shownMoment) + 1));
+    this.playButton = element('button', { type: 'button', title: text.playHint }, [text.play]);
+    this.playButton.addEventListener('click', () => actions.play());
     this.sunNote = element('p', { class: 'note' });
 
     const pictureGroup = element('div', { class: 'group wraps' }, pictures.map((picture, i) => {
@@ -123,7 +127,7 @@ export class Panel {
     ];
     this.root = element('section', { class: 'panel', 'aria-label': text.panelLabel }, [
       element('header', {}, [element('h1', {}, [content.title]), hide]),
-      element('div', { class: 'field' }, last > 0 ? [...instantFields, this.instantSlider] : instantFields),
+      element('div', { class: 'field' }, last > 0 ? [...instantFields, element('div', { class: 'row below slim' }, [this.instantSlider, this.playButton])] : instantFields),
       this.sunNote,
       element('fieldset', { class: 'field' }, [element('legend', {}, [text.picture]), pictureGroup]),
       element('fieldset', { class: 'field' }, [element('legend', {}, [text.parts]), partGroup]),
@@ -199,6 +203,10 @@ export class Panel {
   /** What is known of the air; null where there is none to draw. Shown with the next update. */
   setAirNote(note: string | null): void {
     this.airNote = note;
+  }
+
+  showPlaying(isPlaying: boolean): void {
+    this.playButton.textContent = isPlaying ? text.pause : text.play;
   }
 
   showSun(note: string): void {

@@ -77,6 +77,16 @@ describe.skipIf(!chromium)('moments of the synthetic bake', () => {
     await opened.page.close();
   });
 
+  test('the times play, until the button or the slider stops them', async () => {
+    await page.evaluate(() => window.skybake!.setMoment(0));
+    await page.getByRole('button', { name: 'Abspielen' }).click();
+    await page.waitForFunction(() => window.skybake!.view().moment > 0.1);
+    await page.getByRole('button', { name: 'Anhalten' }).click();
+    const stopped = await page.evaluate(() => window.skybake!.view().moment);
+    await page.waitForTimeout(500);
+    expect(await page.evaluate(() => window.skybake!.view().moment)).toBeLessThanOrEqual(stopped + 0.05); // the step that was under way
+  });
+
   test('the page speaks German', async () => {
     expect(await page.evaluate(() => document.documentElement.lang)).toBe('de');
     await page.getByRole('button', { name: 'Zu Fuß' }).click();
