@@ -26,7 +26,7 @@ const noticeMs = 5000;
 const playStep = 0.04;
 const playIntervalMs = 100;
 /** The settings would cover most of a page that is narrower, CSS pixels. */
-const narrowPage = 700;
+const narrowPage = 520;
 /** A pointer that moved less than this between down and up has clicked, CSS pixels. */
 const clickSlack = 4;
 
