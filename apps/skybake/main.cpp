@@ -49,6 +49,7 @@ int run_arguments(std::vector<std::string> arguments) {
     add_compare(app, program);
     add_view(app, program);
     add_render(app, program);
+    add_export(app, program);
     add_sun(app, program);
     add_sky(app, program);
     add_study(app, program);

@@ -71,6 +71,7 @@ void add_probe(CLI::App& app, Program& program);
 void add_compare(CLI::App& app, Program& program);
 void add_view(CLI::App& app, Program& program);
 void add_render(CLI::App& app, Program& program);
+void add_export(CLI::App& app, Program& program);
 void add_sun(CLI::App& app, Program& program);
 void add_sky(CLI::App& app, Program& program);
 void add_demo(CLI::App& app, Program& program);

@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 
+#include "bake_choice.h"
 #include "base/error.h"
 #include "base/nearest_word.h"
 #include "base/threads.h"
@@ -57,18 +58,13 @@ constexpr std::array<std::pair<const char*, PictureKind>, 5> kKinds = {{{"lit", 
                                                                         {"sky-view", PictureKind::sky_view}}};
 const std::vector<std::string> kProjections = {"perspective", "orthographic", "plan", "panorama"};
 
-[[noreturn]] void unknown(const std::string& option, const std::string& given, const std::vector<std::string>& known) {
-    throw InputError(fmt::format("{} '{}' is unknown; did you mean '{}'? Known: {}.", option, given,
-                                 nearest_word(given, known), fmt::join(known, ", ")));
-}
-
 PictureKind kind_of(const std::string& name) {
     std::vector<std::string> names;
     for (const auto& [known, kind] : kKinds) {
         if (name == known) return kind;
         names.emplace_back(known);
     }
-    unknown("--picture", name, names);
+    unknown_word("--picture", name, names);
 }
 
 /// "1920x1080"; the default is what suits the projection.
@@ -87,62 +83,6 @@ Vec2i size_of(const RenderOptions& options) {
     return size;
 }
 
-/// The instant that --at means: its number, its label or the beginning of one; else the link's; else the first.
-/// None for what is no time, such as the label of a sun's direction.
-std::optional<UtcTime> time_of(const std::string& text) {
-    try {
-        return parse_instant(text, std::nullopt).utc;
-    } catch (const InputError&) {
-        return std::nullopt;
-    }
-}
-
-std::size_t instant_of(const io::StoredBake& bake, const std::string& at, const std::optional<ViewLink>& link) {
-    if (bake.instants.empty()) throw InputError(fmt::format("{}: holds no instant. Bake again.", bake.folder.string()));
-    if (at.empty()) {
-        const std::size_t index = link && link->instant ? *link->instant : 0;
-        if (index < bake.instants.size()) return index;
-        throw InputError(fmt::format("--camera: names instant {}, and the bake has {}. Name one with --at.", index,
-                                     bake.instants.size()));
-    }
-    std::size_t index = 0;
-    const auto [end, error] = std::from_chars(at.data(), at.data() + at.size(), index);
-    if (error == std::errc{} && end == at.data() + at.size() && index < bake.instants.size()) return index;
-    const std::optional<UtcTime> time = time_of(at);  // however it is written
-    std::vector<std::string> labels;
-    std::vector<std::size_t> found;
-    for (std::size_t i = 0; i < bake.instants.size(); ++i) {
-        labels.push_back(bake.instants[i].label);
-        if (labels.back() == at || (time && time_of(labels.back()) == time)) return i;
-        if (labels.back().starts_with(at)) found.push_back(i);
-    }
-    if (found.size() == 1) return found.front();
-    throw InputError(fmt::format("--at '{}': {} of the bake's instants. They are, from 0 on: {}.", at,
-                                 found.empty() ? "is none" : "begins several", fmt::join(labels, ", ")));
-}
-
-/// "sun,sky=0.5"; empty for all parts as they are.
-io::PartFactors parts_of(const std::string& text, const std::vector<std::string>& known) {
-    io::PartFactors parts;
-    for (std::size_t begin = 0; begin < text.size();) {
-        const std::size_t comma = std::min(text.find(',', begin), text.size());
-        const std::string part = text.substr(begin, comma - begin);
-        begin = comma + 1;
-        const std::size_t equals = std::min(part.find('='), part.size());
-        const std::string name = part.substr(0, equals);
-        if (std::find(known.begin(), known.end(), name) == known.end()) unknown("--parts", name, known);
-        float factor = 1.0f;
-        if (equals < part.size()) {
-            const char* end = part.data() + part.size();
-            const auto [stop, error] = std::from_chars(part.data() + equals + 1, end, factor);
-            if (error != std::errc{} || stop != end || !(factor >= 0.0f) || !std::isfinite(factor))
-                throw InputError(fmt::format("--parts '{}': the factor is no number of 0 or more.", part));
-        }
-        parts.emplace_back(name, factor);
-    }
-    return parts;
-}
-
 /// Where to look from: the link, the named view, the bake's first view, or the whole city from the south-west.
 io::BakeView view_of(const RenderOptions& options, const io::StoredBake& bake, const std::optional<ViewLink>& link,
                      const Box3f& bounds) {
@@ -154,7 +94,7 @@ io::BakeView view_of(const RenderOptions& options, const io::StoredBake& bake, c
             names.push_back(view.name);
         }
         if (names.empty()) throw InputError(fmt::format("--view '{}': the bake has no saved views.", options.view));
-        unknown("--view", options.view, names);
+        unknown_word("--view", options.view, names);
     }
     if (!bake.views.empty()) return bake.views.front();
     const float distance = 1.2f * glm::length(bounds.size()) + 1.0f;
@@ -189,7 +129,9 @@ Shot shot_of(const RenderOptions& options, const io::StoredBake& bake, const std
     return {orthographic_camera(position, target, width, reach, size), static_cast<double>(width) / size.x};
 }
 
-FalseColour scale_of(const RenderOptions& options, const Picture& measure, PictureKind kind) {
+FalseColour scale_of(const RenderOptions& options, const std::optional<ViewLink>& link, const Picture& measure,
+                     PictureKind kind) {
+    if (options.range.empty() && !options.is_logarithmic && link && link->scale) return *link->scale;
     FalseColour scale = kind == PictureKind::sky_view ? FalseColour{} : range_of(measure);
     if (options.is_logarithmic) scale.low = scale.high / 100.0;
     if (!options.range.empty()) {
@@ -198,17 +140,6 @@ FalseColour scale_of(const RenderOptions& options, const Picture& measure, Pictu
     }
     scale.is_logarithmic = options.is_logarithmic;
     return scale;
-}
-
-/// All parts, less those that the link switches off; empty when it switches none off.
-io::PartFactors parts_of(const ViewLink& link, const std::vector<std::string>& known) {
-    io::PartFactors parts;
-    if (link.off.empty()) return parts;
-    for (const std::string& name : known) {
-        const bool is_off = std::find(link.off.begin(), link.off.end(), name) != link.off.end();
-        parts.emplace_back(name, is_off ? 0.0f : 1.0f);
-    }
-    return parts;
 }
 
 std::string legend_title(PictureKind kind, const io::PartFactors& parts) {
@@ -243,7 +174,7 @@ void check_options(const RenderOptions& options) {
     if (path.has_parent_path() && !fs::is_directory(path.parent_path()))
         throw InputError(fmt::format("-o {}: there is no such folder. Make it first.", options.output));
     if (std::find(kProjections.begin(), kProjections.end(), options.projection) == kProjections.end())
-        unknown("--projection", options.projection, kProjections);
+        unknown_word("--projection", options.projection, kProjections);
     if (options.range.size() == 2 &&
         !(options.range[0] < options.range[1] && (options.range[0] > 0.0 || !options.is_logarithmic)))
         throw InputError("--range: goes from a lower to a higher value; with --log both are above 0.");
@@ -276,6 +207,9 @@ int run_render(const RenderOptions& options, const CommonOptions& common) {
     Stopwatch watch;
     const io::StoredBake bake = io::open_bake(options.folder);
     const std::size_t instant = instant_of(bake, options.at, link);
+    if (options.at.empty() && link && link->is_between)
+        say(common, fmt::format("--camera: lies between two instants of the bake; shown is the nearer, {}.",
+                                bake.instants[instant].label));
     const PictureKind kind = !options.picture.empty() ? kind_of(options.picture)
                              : link && link->kind     ? *link->kind
                                                       : PictureKind::lit;
@@ -312,7 +246,7 @@ int run_render(const RenderOptions& options, const CommonOptions& common) {
     if (is_png) {
         Annotation annotation;
         if (is_measure(kind)) {
-            const FalseColour scale = scale_of(options, picture, kind);
+            const FalseColour scale = scale_of(options, link, picture, kind);
             picture = in_false_colours(picture, scale);
             annotation.legend = Legend{scale, legend_title(kind, parts)};
             json_range = {scale.low, scale.high};

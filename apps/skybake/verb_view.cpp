@@ -23,9 +23,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Where the walkthrough finds the bake that it compares with.
+constexpr const char* kCompared = "compare";
+
 struct ViewOptions {
     std::string folder;
-    int port = 0;  // 0: the first free one
+    std::string compared;  // a second bake; empty: none
+    int port = 0;          // 0: the first free one
     bool stays_closed = false;
 };
 
@@ -71,6 +75,11 @@ void open_browser(const std::string& url) {
 int run_view(const ViewOptions& options, const CommonOptions& common) {
     const fs::path folder = options.folder;
     check_bake(folder);
+    std::map<std::string, fs::path> mounts;
+    if (!options.compared.empty()) {
+        check_bake(options.compared);
+        mounts.emplace(kCompared, options.compared);
+    }
     std::vector<fs::path> roots{folder};
     // A bake carries the walkthrough of its own version; a bare one is shown with the program's.
     if (!fs::exists(folder / "index.html")) roots.push_back(viewer_assets());
@@ -82,16 +91,18 @@ int run_view(const ViewOptions& options, const CommonOptions& common) {
     sigaddset(&stops, SIGTERM);
     pthread_sigmask(SIG_BLOCK, &stops, nullptr);
 
-    WebServer server(roots);
+    WebServer server(roots, mounts);
     const int port = server.bind(options.port == 0 ? std::nullopt : std::optional(options.port));
-    const std::string url = fmt::format("http://127.0.0.1:{}/", port);
+    std::string url = fmt::format("http://127.0.0.1:{}/", port);
+    if (!mounts.empty()) url += fmt::format("?compare={}/", kCompared);
     bool is_served = false;
     const pthread_t self = pthread_self();
     std::thread serving([&] {
         is_served = server.run();
         pthread_kill(self, SIGTERM);  // wakes the wait below when listening failed; harmless after stop()
     });
-    say(common, fmt::format("{} is shown at {} (to this computer only). Ctrl-C ends.", folder.string(), url));
+    const std::string shown = mounts.empty() ? folder.string() : folder.string() + " beside " + options.compared;
+    say(common, fmt::format("{} is shown at {} (to this computer only). Ctrl-C ends.", shown, url));
     if (common.wants_json) {
         fmt::print("{}\n", nlohmann::json{{"url", url}, {"port", port}}.dump());
         std::fflush(stdout);
@@ -110,10 +121,12 @@ int run_view(const ViewOptions& options, const CommonOptions& common) {
 
 void add_view(CLI::App& app, Program& program) {
     const auto options = std::make_shared<ViewOptions>();
-    CLI::App* verb = add_verb(app, program, "view", "Shows a bake in the browser, served on 127.0.0.1",
-                              "  skybake view demo\n  skybake view graz --port 9000 --no-open",
-                              [options, &program] { return run_view(*options, program.common); });
+    CLI::App* verb =
+        add_verb(app, program, "view", "Shows a bake in the browser, served on 127.0.0.1",
+                 "  skybake view demo\n  skybake view before after\n  skybake view graz --port 9000 --no-open",
+                 [options, &program] { return run_view(*options, program.common); });
     verb->add_option("DIR", options->folder, "folder of a bake (with manifest.json)")->required();
+    verb->add_option("COMPARED", options->compared, "a second bake, to compare with: swipe, A/B, difference");
     verb->add_option("--port", options->port,
                      fmt::format("port on 127.0.0.1; 0 takes the first free one from {} on", kFirstPort))
         ->capture_default_str()

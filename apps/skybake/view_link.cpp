@@ -78,10 +78,15 @@ ViewLink parse_view_link(const std::string& link) {
     const std::optional<Vec3f> position = vec3_of(field("p").value_or(""));
     const std::optional<Vec3f> target = vec3_of(field("t").value_or(""));
     if (!position || !target || *position == *target) fail("names no place to look from (p) and to (t)");
-    ViewLink view{*position, *target, {}, {}, {}, {}, {}};
+    ViewLink view;
+    view.position = *position;
+    view.target = *target;
     if (const auto picture = field("s")) {
-        static const std::map<std::string, PictureKind> kKinds = {
-            {"lit", PictureKind::lit}, {"textures", PictureKind::textures}, {"light", PictureKind::light}};
+        static const std::map<std::string, PictureKind> kKinds = {{"lit", PictureKind::lit},
+                                                                  {"textures", PictureKind::textures},
+                                                                  {"light", PictureKind::light},
+                                                                  {"illuminance", PictureKind::illuminance},
+                                                                  {"sky-view", PictureKind::sky_view}};
         const auto kind = kKinds.find(*picture);
         if (kind == kKinds.end()) fail(fmt::format("knows no picture '{}'", *picture));
         view.kind = kind->second;
@@ -89,6 +94,18 @@ ViewLink parse_view_link(const std::string& link) {
     if (const auto instant = field("i")) {
         view.instant = number_of<std::size_t>(*instant);
         if (!view.instant) fail(fmt::format("the instant '{}' is no number", *instant));
+    }
+    view.is_between = field("f").has_value();
+    if (const auto range = field("fc")) {
+        const std::size_t first = range->find(','), second = range->rfind(',');
+        const auto low = number_of<double>(std::string_view(*range).substr(0, first));
+        const auto high = first < second
+                              ? number_of<double>(std::string_view(*range).substr(first + 1, second - first - 1))
+                              : std::nullopt;
+        const bool is_logarithmic = first < second && range->substr(second + 1) == "log";
+        if (!low || !high || !(*low < *high) || (is_logarithmic && !(*low > 0.0)))
+            fail(fmt::format("the range '{}' of false colours is not LOW,HIGH,lin or LOW,HIGH,log", *range));
+        view.scale = FalseColour{*low, *high, is_logarithmic};
     }
     if (const auto ev = field("ev")) {
         view.ev = number_of<float>(*ev);

@@ -8,6 +8,7 @@
 
 #include "base/vec.h"
 #include "render/display.h"
+#include "render/false_colour.h"
 
 namespace skybake::cli {
 
@@ -17,9 +18,11 @@ struct ViewLink {
     Vec3f target{0.0f};
     std::optional<PictureKind> kind;
     std::optional<std::size_t> instant;
-    std::optional<float> ev;       // stops
-    std::optional<bool> has_air;   // the air between the eye and the city is seen
-    std::vector<std::string> off;  // parts of the light that are switched off
+    bool is_between = false;           // the walkthrough was fading from that instant into a neighbour
+    std::optional<FalseColour> scale;  // range of false colours
+    std::optional<float> ev;           // stops
+    std::optional<bool> has_air;       // the air between the eye and the city is seen
+    std::vector<std::string> off;      // parts of the light that are switched off
 };
 
 /// Reads a whole address or the part from its '#' on. Fields that it does not know are left to newer walkthroughs.

@@ -233,12 +233,15 @@ std::string mime_type(const fs::path& file) {
 
 struct WebServer::State {
     std::vector<fs::path> roots;
+    std::map<std::string, fs::path> mounts;
     GzipCache packed;
     httplib::Server server;
 };
 
-WebServer::WebServer(std::vector<fs::path> roots) : state_(std::make_unique<State>()) {
+WebServer::WebServer(std::vector<fs::path> roots, std::map<std::string, fs::path> mounts)
+    : state_(std::make_unique<State>()) {
     state_->roots = std::move(roots);
+    state_->mounts = std::move(mounts);
     httplib::Server& server = state_->server;
     // The library's own default, SO_REUSEPORT, would let two servers share a port unnoticed.
     server.set_socket_options([](socket_t socket) {
@@ -252,8 +255,17 @@ WebServer::WebServer(std::vector<fs::path> roots) : state_(std::make_unique<Stat
         return httplib::Server::HandlerResponse::Handled;
     });
     server.Get(".*", [this](const httplib::Request& request, httplib::Response& response) {
-        for (const fs::path& root : state_->roots) {
-            if (const std::optional<fs::path> file = file_below(root, request.path)) {
+        std::string path = request.path;
+        std::vector<fs::path> roots = state_->roots;
+        const std::size_t slash = path.find('/', 1);
+        if (slash != std::string::npos) {
+            if (const auto mount = state_->mounts.find(path.substr(1, slash - 1)); mount != state_->mounts.end()) {
+                roots = {mount->second};
+                path.erase(0, slash);
+            }
+        }
+        for (const fs::path& root : roots) {
+            if (const std::optional<fs::path> file = file_below(root, path)) {
                 answer_file(request, response, *file, state_->packed);
                 return;
             }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -27,7 +28,10 @@ std::string mime_type(const std::filesystem::path& file);
 /// may be called from any thread.
 class WebServer {
   public:
-    explicit WebServer(std::vector<std::filesystem::path> roots);
+    /// `mounts`: further folders by the first part of the path, with which they are asked for ("compare" answers
+    /// /compare/…).
+    explicit WebServer(std::vector<std::filesystem::path> roots,
+                       std::map<std::string, std::filesystem::path> mounts = {});
     ~WebServer();
     WebServer(const WebServer&) = delete;
     WebServer& operator=(const WebServer&) = delete;

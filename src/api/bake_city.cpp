@@ -102,6 +102,7 @@ BakeCityResult bake_city(const BakeCityOptions& options, Progress& progress) {
 
     const auto build_begin = Clock::now();
     Scene scene = build_scene(loaded.city, scene_options(options.albedo, options.texel_m), result.findings);
+    io::AttributesOf attributes = io::attributes_of(loaded.city);
     loaded.city = CityModel();  // its memory is wanted for the light
     if (scene.triangles.empty())
         throw InputError(fmt::format("{}: no surface is left to light; see the findings of skybake check.",
@@ -131,6 +132,7 @@ BakeCityResult bake_city(const BakeCityOptions& options, Progress& progress) {
     const auto write_begin = Clock::now();
     io::BakeDescription description =
         describe(options, loaded, rays, daylights, default_views(scene, atlas, light, rays));
+    description.attributes = std::move(attributes);
     description.inputs.insert(description.inputs.end(), lamps.files.begin(), lamps.files.end());
     result.written =
         io::write_bake(options.output, {scene, atlas, light, description, result.report, result.findings}, progress);

@@ -113,6 +113,28 @@ TEST_F(BakeFolder, LightComesBackBitForBit) {
     }
 }
 
+TEST_F(BakeFolder, ObjectsSayWhoseChartItIs) {
+    bake.scene.objects = {{"house-1", "house", ObjectType::building_part}, {"road", "road", ObjectType::road}};
+    bake.scene.faces[0].object = 1;
+    bake.scene.faces[0].type = SurfaceType::road;
+    description.attributes = {{"house", R"({"storeys": 3, "name": "Zum „Bären“"})"}, {"road", "no JSON"}};
+    write("a");
+    std::ifstream file(folder / "a/objects.json");
+    const nlohmann::json json = nlohmann::json::parse(file);
+    ASSERT_EQ(json["objects"].size(), 3u);  // the house has no surface of its own, but its part has
+    const auto owner = [&](int chart) { return json["objects"][json["chart_objects"][chart].get<std::size_t>()]; };
+    EXPECT_EQ(owner(0)["id"], "road");
+    EXPECT_FALSE(owner(0).contains("attributes"));
+    EXPECT_EQ(json["surface_types"][json["chart_surfaces"][0].get<std::size_t>()], "road");
+    EXPECT_EQ(owner(1)["id"], "house-1");
+    EXPECT_EQ(owner(1)["type"], "building_part");
+    const nlohmann::json building = json["objects"][owner(1)["part_of"].get<std::size_t>()];
+    EXPECT_EQ(building["id"], "house");
+    EXPECT_EQ(building["attributes"]["name"], "Zum „Bären“");
+    const nlohmann::json manifest = nlohmann::json::parse(std::ifstream(folder / "a/manifest.json"));
+    EXPECT_EQ(manifest["objects"]["uri"], "objects.json");
+}
+
 // The browser's pictures, decoded as it does: sRGB or linear, times the scale of the chart. An 8-bit code is off by
 // half a step at most; near 1 a step of sRGB is 1/255 × d(linear)/d(sRGB) = 2.28/255, so half of it is 0.0045 of the
 // scale.
@@ -369,8 +391,8 @@ TEST_F(BakeFolder, SameBytesForAnyNumberOfThreadsAndAnyDuration) {
         EXPECT_EQ(read_file(entry.path()), read_file(folder / "one" / relative.string())) << relative;
         ++count;
     }
-    EXPECT_EQ(count,
-              23u);  // 2 × (scales, panorama), air, 2 × (base, svf), 4 × (exr, sky, sun), city.glb, manifest.json
+    // 2 × (scales, panorama), air, 2 × (base, svf), 4 × (exr, sky, sun), city.glb, objects.json, manifest.json
+    EXPECT_EQ(count, 24u);
 }
 
 // A stopped bake leaves no manifest, neither its own nor the old one's, and what it left is gone after the next.

@@ -1,6 +1,7 @@
 // The GLB is parsed back by hand, after the glTF 2.0 specification: layout, alignment, bounds, and that each vertex
 // stands where the scene has it.
 #include "io/gltf/glb.h"
+#include "io/gltf/unlit_glb.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -229,6 +230,51 @@ TEST_F(GlbTest, BentChartsKeepTheNormalsOfTheirTriangles) {
     EXPECT_EQ(flat, Vec3f(0, 0, 1));
     EXPECT_LT(bent.z, 0.9999f);
     EXPECT_NEAR(glm::length(bent), 1.0f, 1e-6f);
+}
+
+TEST_F(GlbTest, TheUnlitCityHasTheSameTrianglesUnderThePagesPictures) {
+    const Glb lit = written(make_small_bake(folder / "ground.png"));
+    const std::vector<std::vector<std::uint8_t>> pages = {
+        encode_png({96, 80, 3, std::vector<std::uint8_t>(96 * 80 * 3, 50)}),
+        encode_png({64, 48, 3, std::vector<std::uint8_t>(64 * 48 * 3, 90)})};
+    write_unlit_glb(folder / "city.glb", folder / "unlit.glb", pages, "skybake test");
+    const Glb unlit(read_file(folder / "unlit.glb"));
+    EXPECT_EQ(unlit.json["extensionsUsed"], nlohmann::json({"KHR_materials_unlit"}));
+    EXPECT_EQ(unlit.json["scenes"][0]["extras"]["crs"], "EPSG:31256");
+    const nlohmann::json& before = lit.json["meshes"][0]["primitives"];
+    const nlohmann::json& after = unlit.json["meshes"][0]["primitives"];
+    ASSERT_EQ(after.size(), before.size());
+    const auto numbers = [](const Glb& glb, const nlohmann::json& primitive, const char* name) {
+        return glb.read<float>(primitive["attributes"][name].get<std::size_t>());
+    };
+    for (std::size_t i = 0; i < after.size(); ++i) {
+        EXPECT_EQ(numbers(unlit, after[i], "POSITION"), numbers(lit, before[i], "POSITION"));
+        EXPECT_EQ(numbers(unlit, after[i], "TEXCOORD_0"), numbers(lit, before[i], "TEXCOORD_1"));
+        EXPECT_FALSE(after[i]["attributes"].contains("_CHART"));
+        EXPECT_EQ(unlit.read<std::uint32_t>(after[i]["indices"].get<std::size_t>()),
+                  lit.read<std::uint32_t>(before[i]["indices"].get<std::size_t>()));
+        const nlohmann::json& material = unlit.json["materials"][after[i]["material"].get<std::size_t>()];
+        EXPECT_TRUE(material["extensions"].contains("KHR_materials_unlit"));
+        const std::size_t base = material["pbrMetallicRoughness"]["baseColorTexture"]["index"];
+        const std::size_t page =
+            lit.json["materials"][before[i]["material"].get<std::size_t>()]["extensions"]["SKYBAKE_lightmap"]["page"];
+        EXPECT_EQ(unlit.image(unlit.json["textures"][base]["source"].get<std::size_t>()), pages[page]);
+    }
+}
+
+TEST_F(GlbTest, AnUnlitCityOfAForeignFileIsRefused) {
+    const std::vector<std::uint8_t> whole = [&] {
+        written(make_small_bake(folder / "ground.png"));
+        return read_file(folder / "city.glb");
+    }();
+    for (const std::size_t size : {std::size_t{0}, std::size_t{11}, std::size_t{40}, whole.size() / 2}) {
+        write_file(folder / "cut.glb", std::span(whole).first(size));
+        EXPECT_THROW(write_unlit_glb(folder / "cut.glb", folder / "unlit.glb", sky_view, "test"), InputError) << size;
+    }
+    // A page that the bake does not have.
+    EXPECT_THROW(write_unlit_glb(folder / "city.glb", folder / "unlit.glb", std::span(sky_view).first(1), "test"),
+                 InputError);
+    EXPECT_FALSE(std::filesystem::exists(folder / "unlit.glb"));
 }
 
 }  // namespace

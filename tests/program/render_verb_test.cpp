@@ -177,5 +177,34 @@ TEST_F(RenderVerb, ABrokenBakeIsNamed) {
         EXPECT_THAT(fault_of(file), HasSubstr(file));
 }
 
+TEST_F(RenderVerb, ALinkMayAskForFalseColoursAndLieBetweenInstants) {
+    std::string err, out;
+    ASSERT_EQ(render({"-o", folder_->str("link.png"), "--size", "16x16", "--json", "--camera",
+                      "#v=1&p=20,20,60&t=20,21,0&s=illuminance&fc=50,200000,log&i=0&f=0.25"},
+                     &err, &out),
+              0)
+        << err;
+    EXPECT_EQ(nlohmann::json::parse(out)["range"], nlohmann::json({50.0, 200000.0}));
+    EXPECT_EQ(render({"-o", folder_->str("link.png"), "--camera", "#v=1&p=20,20,60&t=20,21,0&fc=9,1,lin"}, &err), 2);
+    EXPECT_THAT(err, HasSubstr("range '9,1,lin'"));
+    Running loud(*folder_, {"render", folder_->str("lit"), "-o", folder_->str("link.png"), "--size", "16x16",
+                            "--camera", "#v=1&p=20,20,60&t=20,21,0&i=0&f=0.25"});
+    EXPECT_EQ(loud.exit_code(), 0);
+    EXPECT_THAT(loud.err(), HasSubstr("between two instants"));
+}
+
+TEST_F(RenderVerb, ExportPaintsTheLightOntoTheCity) {
+    Running run(*folder_, {"export", folder_->str("lit"), "-o", folder_->str("unlit.glb"), "--detail", "3", "--json"});
+    ASSERT_EQ(run.exit_code(), 0) << run.err();
+    const nlohmann::json json = nlohmann::json::parse(run.out());
+    EXPECT_EQ(json["triangles"], 2);
+    EXPECT_EQ(json["bytes"], std::filesystem::file_size(*folder_ / "unlit.glb"));
+    Running far(*folder_, {"export", folder_->str("lit"), "-o", folder_->str("unlit.glb"), "--at", "noon"});
+    EXPECT_EQ(far.exit_code(), 2);
+    EXPECT_THAT(far.err(), HasSubstr("--at 'noon'"));
+    Running named(*folder_, {"export", folder_->str("lit"), "-o", folder_->str("unlit.obj")});
+    EXPECT_EQ(named.exit_code(), 2);
+}
+
 }  // namespace
 }  // namespace skybake

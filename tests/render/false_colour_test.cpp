@@ -4,7 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <fstream>
+#include <sstream>
+#include <string>
 
 namespace skybake {
 namespace {
@@ -28,6 +32,31 @@ TEST(FalseColour, GrowsLighterFromLowToHighAndStopsAtTheEnds) {
     EXPECT_EQ(colour_of(scale, 0.0), colour_of(scale, 100.0));
     EXPECT_EQ(colour_of(scale, 1e9), colour_of(scale, 900.0));
     EXPECT_NEAR(255.0f * srgb_from_linear(colour_of(scale, 500.0).y), 145.0f, 0.01f);  // the middle: #21918c
+}
+
+/// The walkthrough's scale (viewer/src/core/false_colour.ts) is held to the same table.
+TEST(FalseColour, HasTheColoursOfTheTable) {
+    std::ifstream table(FALSE_COLOUR_VALUES);
+    ASSERT_TRUE(table) << FALSE_COLOUR_VALUES;
+    std::string line;
+    std::getline(table, line);
+    ASSERT_EQ(line, "low,high,is_logarithmic,value,r_code,g_code,b_code");
+    int rows = 0;
+    while (std::getline(table, line)) {
+        std::istringstream fields(line);
+        std::array<double, 7> v{};
+        for (double& value : v) {
+            std::string field;
+            std::getline(fields, field, ',');
+            value = std::stod(field);
+        }
+        const Rgb colour = colour_of({v[0], v[1], v[2] == 1.0}, v[3]);
+        // Linear and back in single precision: a hundredth of a code.
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(255.0f * srgb_from_linear(colour[c]), v[4 + static_cast<std::size_t>(c)], 0.01) << line;
+        ++rows;
+    }
+    EXPECT_GE(rows, 10);
 }
 
 TEST(FalseColour, TicksAreRound) {

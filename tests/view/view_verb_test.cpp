@@ -95,6 +95,34 @@ TEST_P(ViewVerbSignal, ServesTheBakeUntilTheSignalAndEndsWithZero) {
 
 INSTANTIATE_TEST_SUITE_P(CtrlCAndTerm, ViewVerbSignal, testing::Values(SIGINT, SIGTERM));
 
+TEST_F(ViewVerb, ASecondBakeIsServedBesideTheFirst) {
+    make_bake();
+    const fs::path other = folder_ / "other";
+    fs::create_directory(other);
+    std::ofstream(other / "manifest.json") << R"({"format": "skybake-bake", "version": 1, "title": "after"})";
+    start({folder_.string(), other.string(), "--no-open", "--json"});
+    const int served_port = port();
+    EXPECT_THAT(printed("stdout"), HasSubstr("/?compare=compare/"));
+    httplib::Client client("127.0.0.1", served_port);
+    const auto manifest = client.Get("/compare/manifest.json");
+    ASSERT_TRUE(manifest);
+    EXPECT_THAT(manifest->body, HasSubstr("after"));
+    const auto outside = client.Get("/compare/../index.html");
+    ASSERT_TRUE(outside);
+    EXPECT_EQ(outside->status, 404);
+    const auto missing = client.Get("/compare/index.html");  // the page is the first bake's
+    ASSERT_TRUE(missing);
+    EXPECT_EQ(missing->status, 404);
+}
+
+TEST_F(ViewVerb, ASecondFolderThatIsNoBakeIsTold) {
+    make_bake();
+    fs::create_directory(folder_ / "other");
+    start({folder_.string(), (folder_ / "other").string(), "--no-open"});
+    EXPECT_EQ(exit_code(), 2);
+    EXPECT_THAT(printed("stderr"), HasSubstr("other: this folder is no bake"));
+}
+
 TEST_F(ViewVerb, AFolderWithoutManifestIsNoBake) {
     start({folder_.string(), "--no-open"});
     EXPECT_EQ(exit_code(), 2);

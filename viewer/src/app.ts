@@ -1,14 +1,20 @@
 import { Bake, type BakedInstant } from './core/bake';
+import type { Comparison } from './core/comparison';
 import { clampEv } from './core/exposure';
+import { autoScale, skyViewScale, type FalseColour } from './core/false_colour';
 import { lightParts, type LightPart } from './core/light_parts';
 import { LoadError } from './core/load_error';
-import { pictures, type Mode, type Picture } from './core/pictures';
+import { clampMoment, formatInstant, momentLabel } from './core/moment';
+import { isMeasure, pictures, type Mode, type Picture } from './core/pictures';
 import { text } from './core/text';
 import { luminance, type Vec3 } from './core/units';
 import { formatViewState, parseViewState, type ViewState } from './core/view_state';
+import { Measuring } from './measuring';
 import { Viewer, type ViewerStats } from './three/viewer';
 import type { WalkKey } from './three/walk';
 import { element } from './ui/element';
+import { CompareBar } from './ui/compare_bar';
+import { Legend } from './ui/legend';
 import { ProgressNotice, showError } from './ui/notices';
 import { Panel } from './ui/panel';
 
@@ -16,6 +22,13 @@ import { Panel } from './ui/panel';
 const highestWalker = 4;
 const linkIntervalMs = 300;
 const noticeMs = 5000;
+/** A baked time lasts two and a half seconds while they play. */
+const playStep = 0.04;
+const playIntervalMs = 100;
+/** The settings would cover most of a page that is narrower, CSS pixels. */
+const narrowPage = 520;
+/** A pointer that moved less than this between down and up has clicked, CSS pixels. */
+const clickSlack = 4;
 
 type NamedView = { name: string; position: Vec3; target: Vec3 } | 'birds-eye' | 'on-foot';
 
@@ -29,7 +42,13 @@ function airNote({ air }: BakedInstant): string | null {
 /** Joins the bake, the drawing and the page. */
 export class App {
   readonly viewer: Viewer;
+  readonly measuring: Measuring;
+  private readonly legend = new Legend((scale) => this.setScale(scale));
+  /** Ranges that the user chose. */
+  private readonly scales = new Map<Picture, FalseColour>();
   private bake: Bake | null = null;
+  private compareBar: CompareBar | null = null;
+  private comparison: { shown: Comparison; divider: number } = { shown: 'swipe', divider: 0.5 };
   private panel: Panel | null = null;
   private views: NamedView[] = [];
   private readonly canvas: HTMLCanvasElement;
@@ -37,6 +56,7 @@ export class App {
   private readonly said = element('p', { class: 'said', role: 'status' });
   private readonly notice = element('p', { class: 'progress', role: 'alert', hidden: '' });
   private noticeTimer: number | null = null;
+  private playTimer: number | null = null;
   private readonly help = element('p', { class: 'help' });
   private linkTimer: number | null = null;
 
@@ -49,10 +69,12 @@ export class App {
         antialias,
         onViewChange: () => this.viewChanged(),
         onContextLost: () => showError(new Error(text.error.contextLost)),
+        onError: showError,
       });
     } catch {
       throw new Error(text.error.noWebGl);
     }
+    this.measuring = new Measuring(this.viewer, (words) => this.tell(words), (words) => (this.said.textContent = words), showError);
   }
 
   /** Loads the bake and shows its first picture. Throws LoadError. */
@@ -68,52 +90,117 @@ export class App {
     this.progress.begin(text.loading(text.loadingParts.city), bake.bytesOf('city.glb'));
     await this.viewer.open(bake, this.progress.advance);
 
+    const compared = new URLSearchParams(location.search).get('compare');
+    if (compared !== null) await this.openOther(new URL('manifest.json', new URL(compared, document.baseURI)), title);
+
     this.views = [...manifest.views, 'birds-eye', 'on-foot'];
     this.panel = new Panel(
       {
         title,
-        instants: manifest.instants.map((instant) => instant.label),
+        instants: manifest.instants.map((instant) => formatInstant(instant.label)),
         views: this.views.map((view) => (view === 'birds-eye' ? text.birdsEye : view === 'on-foot' ? text.onFoot : view.name)),
         texelM: manifest.texel_m,
       },
       {
-        instant: (index) => void this.showInstant(index),
+        moment: (moment) => {
+          this.play(false); // the user's hand goes first
+          void this.showMoment(moment);
+        },
         picture: (picture) => this.setPicture(picture),
         mode: (mode) => this.setMode(mode),
         view: (index) => this.showView(index),
         ev: (ev) => this.setEv(ev),
         copyLink: () => void this.copyLink(),
+        play: () => this.play(this.playTimer === null),
+        savePicture: () => void this.savePicture(),
         air: (isSeen) => this.setAir(isSeen),
         part: (part, isOn) => this.switchPart(part, isOn),
       },
     );
-    document.body.append(this.panel.opener, this.panel.root, this.makePad());
+    document.body.append(this.panel.opener, this.panel.root, this.measuring.panel.root, this.legend.root, this.makePad(), this.measuring.marker);
+    if (innerWidth < narrowPage && matchMedia('(pointer: coarse)').matches) this.panel.show(false); // a phone shows the city first
     this.restore(parseViewState(location.hash));
-    await this.showInstant(this.instantOfLink());
+    await this.showMoment(this.momentOfLink());
+    this.listenForClicks();
     window.addEventListener('keydown', (event) => this.key(event));
     window.addEventListener('hashchange', () => this.restoreFromLink());
   }
 
-  async showInstant(index: number): Promise<void> {
+  /** Loads the bake to compare with. Throws LoadError. */
+  private async openOther(url: URL, ownTitle: string): Promise<void> {
+    if (url.origin !== location.origin) throw new LoadError(url.href, text.error.otherOrigin);
+    this.progress.begin(text.loading(text.compare.part), null);
+    const other = await Bake.load(url.href, this.progress.advance);
+    if (other.manifest.instants.length === 0) throw new LoadError(url.href, text.error.noInstants);
+    this.progress.begin(text.loading(text.compare.part), other.bytesOf('city.glb'));
+    await this.viewer.openOther(other, this.progress.advance);
+    this.compareBar = new CompareBar({ a: ownTitle, b: other.manifest.title || text.untitled }, {
+      show: (shown) => this.compare({ shown, divider: this.comparison.divider }),
+      divide: (divider) => this.compare({ shown: this.comparison.shown, divider }),
+    });
+    document.body.append(this.compareBar.root, this.compareBar.divider);
+    document.body.classList.add('compares');
+  }
+
+  /** What is shown of two bakes. */
+  compare(comparison: { shown: Comparison; divider: number }): void {
+    this.comparison = comparison;
+    this.refresh();
+  }
+
+  /** Shows a baked instant, or the cross-fade of two for a moment between them. */
+  async showMoment(wanted: number): Promise<void> {
     const { bake } = this;
     if (!bake) return;
-    const { label } = bake.instant(index);
-    this.progress.begin(text.loading(text.loadingParts.light(label)), bake.bytesOfInstant(index));
+    const { instants } = bake.manifest;
+    const moment = clampMoment(wanted, instants.length);
+    const missing = this.viewer.missingFor(moment);
+    const label = momentLabel(instants, moment);
+    if (missing.length > 0) {
+      const sizes = missing.map((index) => bake.bytesOfInstant(index));
+      const total = sizes.reduce<number | null>((sum, bytes) => (sum === null || bytes === null ? null : sum + bytes), 0);
+      this.progress.begin(text.loading(text.loadingParts.light(missing.map((index) => formatInstant(instants[index]?.label ?? '')).join(', '))), total);
+    }
     try {
-      if (!(await this.viewer.showInstant(index, this.progress.advance))) return; // overtaken: the later call ends the progress
+      if (!(await this.viewer.showMoment(moment, this.progress.advance))) return; // overtaken: the later call ends the progress
     } catch (error) {
       showError(error);
       throw error;
     }
     this.progress.end();
     this.said.textContent = text.nowShowing(label);
-    this.showSun(index);
-    this.panel?.setAirNote(airNote(bake.instant(index)));
+    const nearest = Math.round(moment);
+    this.panel?.showSun(Number.isInteger(moment) ? this.sunNote(nearest) : text.moment(label));
+    this.panel?.setAirNote(airNote(bake.instant(nearest)));
+    this.applyScale();
     this.refresh();
+  }
+
+  /** Runs through the baked times, again and again; a step waits until the one before is shown. */
+  private play(isPlaying: boolean): void {
+    if (this.playTimer !== null) clearTimeout(this.playTimer);
+    this.playTimer = null;
+    this.panel?.showPlaying(isPlaying);
+    if (!isPlaying) return;
+    const last = (this.bake?.manifest.instants.length ?? 1) - 1;
+    const step = async (): Promise<void> => {
+      const { moment } = this.viewer;
+      await this.showMoment(moment >= last ? 0 : Math.min(last, moment + playStep));
+      if (this.playTimer !== null) this.playTimer = window.setTimeout(() => void step(), playIntervalMs);
+    };
+    this.playTimer = window.setTimeout(() => void step(), playIntervalMs);
   }
 
   setPicture(picture: Picture): void {
     this.viewer.picture = picture;
+    this.applyScale();
+    this.refresh();
+  }
+
+  /** Range of the false colours of the picture on show. */
+  setScale(scale: FalseColour): void {
+    this.scales.set(this.viewer.picture, scale);
+    this.applyScale();
     this.refresh();
   }
 
@@ -179,9 +266,11 @@ export class App {
 
   private restore(state: Partial<ViewState>): void {
     if (state.picture) this.viewer.picture = state.picture;
+    if (state.scale && isMeasure(this.viewer.picture)) this.scales.set(this.viewer.picture, state.scale);
     if (state.ev !== undefined) this.viewer.ev = clampEv(state.ev);
     if (state.air !== undefined) this.viewer.air = state.air;
     this.viewer.off = state.off ?? [];
+    if (state.comparison) this.comparison = state.comparison;
     if (state.position && state.target) {
       const isWalking = state.mode === 'walk' && this.viewer.walkFrom({ position: state.position, target: state.target });
       if (!isWalking) this.viewer.lookAt(state.position, state.target);
@@ -193,37 +282,77 @@ export class App {
     }
   }
 
-  private instantOfLink(): number {
-    const wanted = parseViewState(location.hash).instant ?? 0;
-    return Math.min(wanted, (this.bake?.manifest.instants.length ?? 1) - 1);
+  private momentOfLink(): number {
+    return parseViewState(location.hash).moment ?? 0;
+  }
+
+  /** The user's range, or one that suits the light on show. */
+  private applyScale(): void {
+    const { picture } = this.viewer;
+    if (!this.bake || !isMeasure(picture)) return;
+    this.viewer.scale = this.scales.get(picture) ?? (picture === 'sky-view' ? skyViewScale : this.luxScale(this.bake));
+  }
+
+  /** A range of lux that suits the moment. */
+  private luxScale(bake: Bake): FalseColour {
+    const { exposure_hint: hint, sun } = bake.instant(Math.max(0, Math.round(this.viewer.moment)));
+    return autoScale(hint, sun.shape === 'none' ? 0 : luminance(sun.normal_illuminance_klx));
+  }
+
+  /** A click that is no drag measures. */
+  private listenForClicks(): void {
+    let down: PointerEvent | null = null;
+    this.canvas.addEventListener('pointerdown', (event) => (down = event.isPrimary && event.button === 0 ? event : null));
+    this.canvas.addEventListener('pointerup', (event) => {
+      const isClick = down !== null && down.pointerId === event.pointerId && Math.hypot(event.clientX - down.clientX, event.clientY - down.clientY) <= clickSlack;
+      down = null;
+      if (isClick) void this.measuring.at({ x: event.offsetX, y: event.offsetY }, false);
+    });
   }
 
   private restoreFromLink(): void {
     const state = parseViewState(location.hash);
     if (Object.keys(state).length === 0) return;
     this.restore(state);
-    void this.showInstant(this.instantOfLink());
+    void this.showMoment(this.momentOfLink());
   }
 
   private refresh(): void {
     const { viewer } = this;
-    this.panel?.update({ instant: Math.max(0, viewer.instant), picture: viewer.picture, mode: viewer.mode, ev: viewer.ev, exposure: viewer.exposure, air: viewer.air, parts: this.bake?.partsOf(Math.max(0, viewer.instant)) ?? [], off: viewer.off });
-    this.help.textContent = text.help[viewer.mode];
+    const moment = Math.max(0, viewer.moment);
+    const instants = this.bake?.manifest.instants ?? [];
+    this.panel?.update({
+      moment, label: momentLabel(instants, moment), picture: viewer.picture, mode: viewer.mode, ev: viewer.ev, exposure: viewer.exposure, air: viewer.air,
+      parts: this.bake?.partsOf(Math.round(moment)) ?? [], off: viewer.off,
+    });
+    this.legend.show(viewer.picture === 'illuminance' || viewer.picture === 'sky-view' ? text.legendTitle[viewer.picture] : null, viewer.scale);
+    this.showComparison();
+    this.help.textContent = text.help[viewer.mode] + (this.compareBar ? text.compare.keys : '');
     this.canvas.dataset['mode'] = viewer.mode;
     this.viewChanged();
   }
 
-  private showSun(index: number): void {
-    if (!this.bake) return;
+  private showComparison(): void {
+    if (!this.compareBar || !this.bake) return;
+    const { shown, divider } = this.comparison;
+    // A tenth of the range of lux: what a planned building takes from a street is seen.
+    const range = this.luxScale(this.bake).high / 10;
+    this.compareBar.update(shown, divider);
+    this.viewer.compare(shown, divider, range);
+    if (shown === 'difference') this.legend.showDifference(text.compare.legend, text.compare.legendNote, range);
+  }
+
+  private sunNote(index: number): string {
+    if (!this.bake) return '';
     const { sun } = this.bake.instant(index);
     const azimuth = (sun.azimuth_deg + this.bake.manifest.convergence_deg + 720) % 360;
-    this.panel?.showSun(sun.shape === 'none' ? text.noSun : text.sun(azimuth, sun.elevation_deg, luminance(sun.normal_illuminance_klx)));
+    return sun.shape === 'none' ? text.noSun : text.sun(azimuth, sun.elevation_deg, luminance(sun.normal_illuminance_klx));
   }
 
   /** The part of the address that restores what is seen now. */
   private link(): string {
     const { viewer } = this;
-    return formatViewState({ ...viewer.view, mode: viewer.mode, picture: viewer.picture, instant: viewer.instant, ev: viewer.ev, air: viewer.air, off: viewer.off });
+    return formatViewState({ ...viewer.view, mode: viewer.mode, picture: viewer.picture, moment: viewer.moment, ev: viewer.ev, air: viewer.air, off: viewer.off, scale: this.scales.get(viewer.picture) ?? null, comparison: this.compareBar ? this.comparison : null });
   }
 
   private async copyLink(): Promise<void> {
@@ -237,9 +366,18 @@ export class App {
     }
   }
 
+  /** Offers what is seen as a PNG. */
+  private async savePicture(): Promise<void> {
+    const picture = await this.viewer.picturePng();
+    const link = element('a', { download: `${document.title.replace(/[^\p{L}\p{N}]+/gu, '-')}.png`, href: URL.createObjectURL(picture) });
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 60_000); // the browser has its copy long before
+  }
+
   /** Writes the link at most a few times a second: browsers refuse more. */
   private viewChanged(): void {
-    if (this.viewer.instant < 0) return;
+    if (this.viewer.moment < 0) return;
+    this.measuring.moveMarker();
     this.linkTimer ??= window.setTimeout(() => {
       this.linkTimer = null;
       history.replaceState(null, '', this.link());
@@ -249,11 +387,14 @@ export class App {
   private key(event: KeyboardEvent): void {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     if (event.target instanceof Element && event.target.matches('select, textarea, input:not([type=range])')) return;
-    const instants = this.bake?.manifest.instants.length ?? 0;
     const picture = pictures[Number(event.key) - 1];
     if (picture) this.setPicture(picture);
-    else if (event.key === ',' && this.viewer.instant > 0) void this.showInstant(this.viewer.instant - 1);
-    else if (event.key === '.' && this.viewer.instant < instants - 1) void this.showInstant(this.viewer.instant + 1);
+    else if (event.key === ',') void this.showMoment(Math.ceil(this.viewer.moment) - 1);
+    else if (event.key === '.') void this.showMoment(Math.floor(this.viewer.moment) + 1);
+    else if (event.key === 'Escape' && this.measuring.isOpen) this.measuring.close();
+    else if (this.compareBar && event.code === 'KeyB') this.compare({ ...this.comparison, shown: this.comparison.shown === 'b' ? 'a' : 'b' });
+    else if (this.compareBar && event.code === 'KeyC') this.compare({ ...this.comparison, shown: this.comparison.shown === 'swipe' ? 'difference' : 'swipe' });
+    else if (event.code === 'KeyM') void this.measuring.at({ x: this.canvas.clientWidth / 2, y: this.canvas.clientHeight / 2 }, true);
     else if (event.key === '+' || event.key === '=') this.setEv(this.viewer.ev + 0.5);
     else if (event.key === '-') this.setEv(this.viewer.ev - 0.5);
     else if (event.code === 'KeyF') this.setAir(!this.viewer.air);

@@ -1,7 +1,9 @@
 import type { App } from './app';
+import type { FalseColour } from './core/false_colour';
 import type { LightPart } from './core/light_parts';
 import type { Mode, Picture } from './core/pictures';
 import type { Vec3 } from './core/units';
+import type { Measured } from './measuring';
 import type { ViewerStats } from './three/viewer';
 
 /**
@@ -12,6 +14,11 @@ export interface TestHook {
   ready: Promise<void>;
   /** Loads and shows an instant; resolves when it is shown. */
   setInstant(index: number): Promise<void>;
+  /** The same for a moment between two instants. */
+  setMoment(moment: number): Promise<void>;
+  setScale(scale: FalseColour): void;
+  /** Measures at a place of the canvas, CSS pixels; null where the sky is. */
+  measureAt(x: number, y: number): Promise<Measured | null>;
   setPicture(picture: Picture): void;
   setMode(mode: Mode): void;
   setAir(isSeen: boolean): void;
@@ -32,7 +39,7 @@ export interface TestHook {
   readPixels(x: number, y: number, width: number, height: number): number[];
   /** The factor from kcd/m² to the tone mapper's input. */
   exposure(): number;
-  view(): { mode: Mode; position: Vec3; target: Vec3; instant: number; picture: Picture };
+  view(): { mode: Mode; position: Vec3; target: Vec3; moment: number; picture: Picture };
   stats(): ViewerStats;
 }
 
@@ -46,7 +53,14 @@ export function installTestHook(app: App, ready: Promise<void>): void {
   const { viewer } = app;
   window.skybake = {
     ready,
-    setInstant: (index) => app.showInstant(index),
+    setInstant: (index) => app.showMoment(index),
+    setMoment: (moment) => app.showMoment(moment),
+    setScale: (scale) => app.setScale(scale),
+    measureAt: async (x, y) => {
+      app.measuring.last = null;
+      await app.measuring.at({ x, y }, false);
+      return app.measuring.last;
+    },
     setPicture: (picture) => app.setPicture(picture),
     setPart: (part, isOn) => app.switchPart(part, isOn),
     setMode: (mode) => app.setMode(mode),
@@ -59,7 +73,7 @@ export function installTestHook(app: App, ready: Promise<void>): void {
     renderFrame: () => viewer.drawNow(),
     readPixels: (x, y, width, height) => Array.from(viewer.readPixels(x, y, width, height)),
     exposure: () => viewer.exposure,
-    view: () => ({ mode: viewer.mode, ...viewer.view, instant: viewer.instant, picture: viewer.picture }),
+    view: () => ({ mode: viewer.mode, ...viewer.view, moment: viewer.moment, picture: viewer.picture }),
     stats: () => app.stats(),
   };
 }

@@ -10,6 +10,7 @@ namespace skybake::io::names {
 
 inline const char* const kManifest = "manifest.json";
 inline const char* const kCity = "city.glb";
+inline const char* const kObjects = "objects.json";
 inline const char* const kLightFolder = "light";
 
 inline std::string base(std::size_t page) {

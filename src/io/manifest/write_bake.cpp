@@ -152,8 +152,9 @@ void clear_old_bake(const std::filesystem::path& folder) {
                 fmt::format("{}: of an older bake, cannot be removed ({}).", path.string(), error.message()));
     };
     remove(folder / names::kManifest);
-    for (const char* name : {names::kManifest, names::kCity}) remove(folder / (std::string(name) + ".part"));
-    remove(folder / names::kCity);
+    for (const char* name : {names::kManifest, names::kCity, names::kObjects})
+        remove(folder / (std::string(name) + ".part"));
+    for (const char* name : {names::kCity, names::kObjects}) remove(folder / name);
     static const std::regex ours(
         "(p[0-9]+_(base\\.exr|svf\\.png|lamps\\.png)|lamp_scales\\.bin|i[0-9]+_(p[0-9]+(\\.exr|_sky\\.png|_sun\\.png|_"
         "indirect\\.png|_leaks\\.png)|scales\\.bin|"
@@ -370,6 +371,7 @@ Json manifest_json(const BakeOutput& output, const std::vector<FileHash>& hashes
           {"color", "linear Rec. 709, photometric: 0.2126 R + 0.7152 G + 0.0722 B is the illuminance or luminance"}}},
         {"pages", pages},
         {"charts", output.atlas.charts.size()},
+        {"objects", {{"uri", names::kObjects}}},
         {"instants", instants},
         {"views", views},
         {"files", files},
@@ -414,7 +416,7 @@ WrittenBake write_bake(const std::filesystem::path& folder, const BakeOutput& ou
     WrittenBake written;
     std::vector<FileHash> hashes(description.inputs.size());
     std::vector<double> exposures(instant_count);
-    std::vector<std::string> files = {names::kCity};
+    std::vector<std::string> files = {names::kCity, names::kObjects};
     std::vector<Job> jobs;
     // The GLB comes first: it is the longest piece of work that one thread does alone.
     jobs.push_back({4, [&] {
@@ -425,6 +427,11 @@ WrittenBake write_bake(const std::filesystem::path& folder, const BakeOutput& ou
                         });
                         const GlbInfo info{"skybake " + description.version, description.crs};
                         written.glb = write_glb(folder / names::kCity, output.scene, output.atlas, sky_view_pngs, info);
+                    }});
+    jobs.push_back({1, [&] {
+                        FileReplacement file(folder / names::kObjects);
+                        file.write(objects_json(output.scene, output.atlas, description.attributes));
+                        file.commit();
                     }});
     for (std::size_t f = 0; f < description.inputs.size(); ++f) {
         jobs.push_back({1, [&, f] { hashes[f] = hash_file(description.inputs[f]); }});

@@ -16,6 +16,7 @@
 #include "base/site.h"
 #include "io/gltf/glb.h"
 #include "io/manifest/bake_view.h"
+#include "io/manifest/write_objects.h"
 #include "scene/scene.h"
 #include "sky/aerial_perspective.h"
 
@@ -50,6 +51,7 @@ struct BakeDescription {
     std::string isa;
     std::vector<InstantDescription> instants;  // one an instant of the lightmaps
     std::vector<BakeView> views;
+    AttributesOf attributes;  // of the city's objects
 };
 
 struct BakeOutput {

@@ -1,9 +1,11 @@
 import { parseAirlight, type Airlight } from './air';
-import { fetchBytes, type OnBytes } from './fetch';
+import { ExrFile } from './exr';
+import { fetchBytes, fetchRange, type OnBytes } from './fetch';
 import type { Manifest } from './generated/manifest';
 import validateManifest from './generated/validate_manifest.js';
 import { lightParts, type LightPart } from './light_parts';
 import { LoadError } from './load_error';
+import { CityObjects } from './objects';
 import { Panorama } from './panorama';
 import { text } from './text';
 
@@ -58,6 +60,8 @@ export function parseManifest(url: string, source: string): Manifest {
 /** A bake folder: its manifest, and the way to its files. */
 export class Bake {
   private readonly sizes = new Map<string, number>();
+  private readonly archives = new Map<string, Promise<ExrFile>>();
+  private objectsRead: Promise<CityObjects> | null = null;
 
   constructor(
     readonly manifest: Manifest,
@@ -104,6 +108,42 @@ export class Bake {
 
   fetch(uri: string, onBytes: OnBytes, signal?: AbortSignal): Promise<Uint8Array<ArrayBuffer>> {
     return fetchBytes(this.url(uri), this.bytesOf(uri), onBytes, signal);
+  }
+
+  /** The archive of an instant's light on a page: lx, 32-bit. Only what is asked of it is fetched. */
+  lightFile(index: number, page: number): Promise<ExrFile> {
+    return this.archive(this.instant(index).pages[page]?.exr);
+  }
+
+  /** The archive of what all instants share on a page. */
+  baseFile(page: number): Promise<ExrFile> {
+    return this.archive(this.manifest.pages[page]?.base);
+  }
+
+  /** Objects of the city with their attributes; null in bakes of older versions. Throws LoadError. */
+  async objects(): Promise<CityObjects | null> {
+    const { objects, charts } = this.manifest;
+    if (!objects) return null;
+    this.objectsRead ??= this.fetch(objects.uri, () => {}).then((bytes) => CityObjects.parse(this.url(objects.uri), bytes, charts));
+    return this.objectsRead;
+  }
+
+  private archive(uri: string | undefined): Promise<ExrFile> {
+    if (uri === undefined) throw new RangeError('no such page');
+    let file = this.archives.get(uri);
+    if (!file) {
+      const url = this.url(uri);
+      let whole: Uint8Array<ArrayBuffer> | null = null; // of a host that knows no ranges
+      file = ExrFile.open(url, async (first, count) => {
+        if (whole) return whole.slice(first, first + count);
+        const got = await fetchRange(url, first, Math.min(count, (this.bytesOf(uri) ?? Infinity) - first));
+        whole = got.whole;
+        return got.bytes;
+      });
+      this.archives.set(uri, file);
+      file.catch(() => this.archives.delete(uri)); // the next question asks again
+    }
+    return file;
   }
 
   /** The parts of light that are in the files of an instant, or of all. */

@@ -44,3 +44,22 @@ export async function fetchBytes(url: string, expectedBytes: number | null, onBy
   }
   return bytes;
 }
+
+/**
+ * A part of a file, for hosts that answer ranges; from others the whole file comes, and the part is cut out of it.
+ * @returns bytes [first, first + count), fewer where the file ends
+ * @throws LoadError with the address when the file is missing or unreachable
+ */
+export async function fetchRange(url: string, first: number, count: number): Promise<{ bytes: Uint8Array<ArrayBuffer>; whole: Uint8Array<ArrayBuffer> | null }> {
+  let response: Response;
+  let bytes: Uint8Array<ArrayBuffer>;
+  try {
+    response = await fetch(url, { headers: { range: `bytes=${first}-${first + count - 1}` } });
+    bytes = new Uint8Array(await response.arrayBuffer());
+  } catch {
+    throw new LoadError(url, text.error.unreachable);
+  }
+  if (!response.ok) throw new LoadError(url, text.error.missing(response.status));
+  if (response.status === 206) return { bytes, whole: null };
+  return { bytes: bytes.slice(first, first + count), whole: bytes };
+}

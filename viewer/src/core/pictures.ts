@@ -1,9 +1,14 @@
-/** The three pictures of the paper: the textured city in its light, the textures alone, the light alone on white. */
-export const pictures = ['lit', 'textures', 'light'] as const;
+/** The three pictures of the paper: the textured city in its light, the textures alone, the light alone on white; and two measures in false colours. */
+export const pictures = ['lit', 'textures', 'light', 'illuminance', 'sky-view'] as const;
 export type Picture = (typeof pictures)[number];
 
 export const modes = ['orbit', 'walk'] as const;
 export type Mode = (typeof modes)[number];
+
+/** Pictures of numbers: colours of a scale instead of light. */
+export function isMeasure(picture: Picture): boolean {
+  return picture === 'illuminance' || picture === 'sky-view';
+}
 
 export function isPicture(value: unknown): value is Picture {
   return pictures.some((known) => known === value);

@@ -1,3 +1,5 @@
+import { isComparison, type Comparison } from './comparison';
+import type { FalseColour } from './false_colour';
 import { isMode, isPicture, type Mode, type Picture } from './pictures';
 import { isLightPart, type LightPart } from './light_parts';
 import type { Vec3 } from './units';
@@ -8,19 +10,28 @@ export interface ViewState {
   position: Vec3;
   target: Vec3;
   picture: Picture;
-  instant: number;
+  /** Number of an instant; between two of them while they fade. */
+  moment: number;
   ev: number;
   /** The air between the eye and the city is drawn. */
   air: boolean;
   /** Parts of the light that are switched off. */
   off: readonly LightPart[];
+  /** Range of the false colours; null: as the light suggests. */
+  scale: FalseColour | null;
+  /** Of two bakes: what is shown of them, and where the divider stands (0…1); null with one bake. */
+  comparison: { shown: Comparison; divider: number } | null;
 }
 
 const metres = (v: Vec3) => v.map((c) => c.toFixed(2)).join(',');
 
 export function formatViewState(state: ViewState): string {
   const off = state.off.length > 0 ? `&off=${state.off.join(',')}` : '';
-  return `#v=1&m=${state.mode}&p=${metres(state.position)}&t=${metres(state.target)}&s=${state.picture}&i=${state.instant}&ev=${state.ev.toFixed(1)}${state.air ? '' : '&a=0'}${off}`;
+  const scale = state.scale ? `&fc=${state.scale.low},${state.scale.high},${state.scale.isLogarithmic ? 'log' : 'lin'}` : '';
+  const comparison = state.comparison ? `&c=${state.comparison.shown},${state.comparison.divider.toFixed(3)}` : '';
+  const instant = Math.round(state.moment);
+  const fade = state.moment === instant ? '' : `&f=${(state.moment - instant).toFixed(2)}`; // from the nearest instant, which a still shows
+  return `#v=1&m=${state.mode}&p=${metres(state.position)}&t=${metres(state.target)}&s=${state.picture}&i=${instant}${fade}&ev=${state.ev.toFixed(1)}${state.air ? '' : '&a=0'}${off}${scale}${comparison}`;
 }
 
 /** Reads what it understands and leaves out the rest: an old or hand-written link still opens the city. */
@@ -39,13 +50,19 @@ export function parseViewState(hash: string): Partial<ViewState> {
     state.target = target;
   }
   const instant = Number(fields.get('i') ?? NaN);
-  if (Number.isInteger(instant) && instant >= 0) state.instant = instant;
+  const fade = Number(fields.get('f') ?? 0);
+  if (Number.isInteger(instant) && instant >= 0) state.moment = Math.max(0, instant + (Math.abs(fade) <= 0.5 ? fade : 0));
   const ev = Number(fields.get('ev') ?? NaN);
   if (Number.isFinite(ev)) state.ev = ev;
   const air = fields.get('a');
   if (air === '0' || air === '1') state.air = air === '1';
   const off = fields.get('off');
   if (off !== null) state.off = off.split(',').filter(isLightPart);
+  const [low, high, kind] = (fields.get('fc') ?? '').split(',');
+  const scale = { low: Number(low), high: Number(high), isLogarithmic: kind === 'log' };
+  if (high !== undefined && scale.low < scale.high && Number.isFinite(scale.high) && (scale.low > 0 || !scale.isLogarithmic)) state.scale = scale;
+  const [shown, divider] = (fields.get('c') ?? '').split(',');
+  if (isComparison(shown) && Number(divider) >= 0 && Number(divider) <= 1) state.comparison = { shown, divider: Number(divider) };
   return state;
 }
 

@@ -17,6 +17,10 @@ export interface City {
   group: THREE.Group;
   pages: PageUniforms[];
   triangleCount: number;
+  /** Primitives of the file, before those of one look and page were joined. */
+  primitiveCount: number;
+  /** Albedo textures on the graphics card, with their mip levels. */
+  textureBytes: number;
   chartCount: number;
   bounds: THREE.Box3;
   dispose(): void;
@@ -62,6 +66,10 @@ export async function loadCity(url: string, bytes: Uint8Array<ArrayBuffer>, page
     uSkyPage: { value: null },
     uSunPage: { value: null },
     uIndirectPage: { value: null },
+    uSkyPageB: { value: null },
+    uSunPageB: { value: null },
+    uIndirectPageB: { value: null },
+    uSkyViewPage: { value: null },
     uLampPage: { value: null },
     uPageSize: { value: new THREE.Vector2(size.width, size.height) },
   }));
@@ -97,13 +105,18 @@ export async function loadCity(url: string, bytes: Uint8Array<ArrayBuffer>, page
     for (let i = 0; i < charts.length; ++i) chartCount = Math.max(chartCount, (charts[i] ?? 0) + 1);
     const mesh = new THREE.Mesh(geometry, makeCityMaterial(lit.look, page, shared));
     mesh.name = lit.look.name;
+    mesh.userData = { page: lit.page };
     mesh.matrixAutoUpdate = false;
     group.add(mesh);
   }
+  const maps = new Set([...parts.values()].flatMap(({ lit }) => (lit.look.map ? [lit.look.map] : [])));
+  const sizes = [...maps].map(({ image }) => (image as ImageBitmap).width * (image as ImageBitmap).height);
   return {
     group,
     pages,
     triangleCount,
+    primitiveCount: [...parts.values()].reduce((sum, { meshes }) => sum + meshes.length, 0),
+    textureBytes: Math.round(((4 * 4) / 3) * sizes.reduce((sum, pixels) => sum + pixels, 0)),
     chartCount,
     bounds,
     dispose() {

@@ -1,9 +1,14 @@
 import * as THREE from 'three';
+import { viridis, type FalseColour } from '../core/false_colour';
 import { lightParts, type LightPart } from '../core/light_parts';
 import type { Picture } from '../core/pictures';
 import { airShader, makeAirUniforms, type AirUniforms } from './air';
 
-const pictureNumber: Record<Picture, number> = { lit: 0, textures: 1, light: 2 };
+const pictureNumber: Record<Picture, number> = { lit: 0, textures: 1, light: 2, illuminance: 3, 'sky-view': 4 };
+/** Not for eyes: lux and distance, as differences need them. */
+const numbersPicture = 5;
+/** From this number on a picture shows a measure in false colours. */
+export const firstMeasure = pictureNumber.illuminance;
 
 /** Charts in a row of the texture of scales. */
 export const scalesWidth = 2048;
@@ -11,18 +16,25 @@ export const scalesWidth = 2048;
 /** Uniforms that all materials share by reference: a change is seen by all of them at the next frame. */
 export interface SharedUniforms extends AirUniforms {
   uScales: THREE.IUniform<THREE.Texture | null>;
-  uSunKlx: THREE.IUniform<THREE.Vector3>;
+  uScalesB: THREE.IUniform<THREE.Texture | null>;
+  uSunKlx: THREE.IUniform<[THREE.Vector3, THREE.Vector3]>;
   uExposure: THREE.IUniform<number>;
   uPicture: THREE.IUniform<number>;
-  /** 1 or 0 for the light of sun, sky, reflections and lamps. */
+  /** False colours: low, high, and 1 for a logarithmic scale. */
+  uScale: THREE.IUniform<THREE.Vector3>;
+  /** Factors for the light of sun, sky, reflections and lamps. */
   uParts: THREE.IUniform<THREE.Vector4>;
 }
 
-/** The lightmap textures of one page, shared by the materials that lie in it. */
+/** The lightmap textures of one page, shared by the materials that lie in it; B: of the instant that the one on show fades into. */
 export interface PageUniforms {
   uSkyPage: THREE.IUniform<THREE.Texture | null>;
   uSunPage: THREE.IUniform<THREE.Texture | null>;
   uIndirectPage: THREE.IUniform<THREE.Texture | null>;
+  uSkyPageB: THREE.IUniform<THREE.Texture | null>;
+  uSunPageB: THREE.IUniform<THREE.Texture | null>;
+  uIndirectPageB: THREE.IUniform<THREE.Texture | null>;
+  uSkyViewPage: THREE.IUniform<THREE.Texture | null>;
   uLampPage: THREE.IUniform<THREE.Texture | null>;
   uPageSize: THREE.IUniform<THREE.Vector2>;
 }
@@ -30,7 +42,9 @@ export interface PageUniforms {
 export function makeSharedUniforms(): SharedUniforms {
   return {
     uScales: { value: null },
-    uSunKlx: { value: new THREE.Vector3() },
+    uScalesB: { value: null },
+    uSunKlx: { value: [new THREE.Vector3(), new THREE.Vector3()] },
+    uScale: { value: new THREE.Vector3(0, 1, 0) },
     uExposure: { value: 1 },
     uPicture: { value: 0 },
     ...makeAirUniforms(),
@@ -40,6 +54,14 @@ export function makeSharedUniforms(): SharedUniforms {
 
 export function setPicture(uniforms: SharedUniforms, picture: Picture): void {
   uniforms.uPicture.value = pictureNumber[picture];
+}
+
+export function setNumbersPicture(uniforms: SharedUniforms): void {
+  uniforms.uPicture.value = numbersPicture;
+}
+
+export function setFalseColour(uniforms: SharedUniforms, { low, high, isLogarithmic }: FalseColour): void {
+  uniforms.uScale.value.set(low, high, isLogarithmic ? 1 : 0);
 }
 
 export function setPartsOff(uniforms: SharedUniforms, off: readonly LightPart[]): void {
@@ -72,10 +94,13 @@ const vertexShader = /* glsl */ `
 in vec2 uv1;
 in float _chart;
 uniform highp sampler2D uScales;
+uniform highp sampler2D uScalesB;
+uniform float uBlend;
 uniform mat3 uMapTransform;
 out vec2 vUv;
 centroid out vec2 vLightUv;
 flat out vec4 vScale;
+flat out vec4 vScaleB;
 out vec3 vPosition;
 #ifdef USE_COLOR
 out vec3 vTint;
@@ -92,8 +117,10 @@ void main() {
   #endif
   vLightUv = uv1;
   int chart = int(_chart + 0.5);
-  vScale = texelFetch(uScales, ivec2(chart % ${scalesWidth}, chart / ${scalesWidth}), 0);
-  vPosition = position; // meshes stand in scene coordinates
+  ivec2 entry = ivec2(chart % ${scalesWidth}, chart / ${scalesWidth});
+  vScale = texelFetch(uScales, entry, 0);
+  vScaleB = uBlend > 0.0 ? texelFetch(uScalesB, entry, 0) : vec4(0.0);
+  vPosition = (modelMatrix * vec4(position, 1.0)).xyz;
   gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
 }
 `;
@@ -106,6 +133,7 @@ const fragmentShader = /* glsl */ `
 in vec2 vUv;
 centroid in vec2 vLightUv;
 flat in vec4 vScale;
+flat in vec4 vScaleB;
 in vec3 vPosition;
 #ifdef USE_COLOR
 in vec3 vTint;
@@ -113,10 +141,15 @@ in vec3 vTint;
 uniform sampler2D uSkyPage;
 uniform sampler2D uSunPage;
 uniform sampler2D uIndirectPage;
+uniform sampler2D uSkyPageB;
+uniform sampler2D uSunPageB;
+uniform sampler2D uIndirectPageB;
+uniform sampler2D uSkyViewPage;
 uniform sampler2D uLampPage;
 uniform vec4 uParts;
 uniform vec2 uPageSize;
-uniform vec3 uSunKlx;
+uniform vec3 uSunKlx[2];
+uniform vec3 uScale;
 uniform vec3 uBaseColor;
 uniform int uPicture;
 #ifdef USE_MAP
@@ -129,6 +162,24 @@ uniform float uBaseAlpha;
 layout(location = 0) out vec4 outColor;
 ${displayShader}
 ${airShader}
+
+const vec3 kViridis[${viridis.length}] = vec3[](${viridis.map((code) => `vec3(${code.map((c) => (c / 255).toFixed(6)).join(', ')})`).join(', ')});
+
+// Codes of sRGB, as the legend has them.
+vec4 falseColour(float value) {
+  float place = uScale.z > 0.5 ? (value > 0.0 ? log(value / uScale.x) / log(uScale.y / uScale.x) : 0.0) : (value - uScale.x) / (uScale.y - uScale.x);
+  place = clamp(place, 0.0, 1.0) * ${(viridis.length - 1).toFixed(1)};
+  int lower = min(int(place), ${viridis.length - 2});
+  return vec4(mix(kViridis[lower], kViridis[lower + 1], place - float(lower)), 1.0);
+}
+
+// Sun, sky and reflected light of one instant, klx.
+vec3 lightOf(sampler2D skyPage, sampler2D sunPage, sampler2D indirectPage, vec4 scale, vec3 beam, float level) {
+  vec3 sky = textureLod(skyPage, vLightUv, level).rgb * scale.x;
+  float sunCosine = textureLod(sunPage, vLightUv, level).r * scale.y;
+  vec3 indirect = scale.z > 0.0 ? textureLod(indirectPage, vLightUv, level).rgb * scale.z : vec3(0.0);
+  return uParts.x * sunCosine * beam + uParts.y * sky + uParts.z * indirect;
+}
 
 void main() {
   vec3 albedo = uBaseColor;
@@ -150,11 +201,21 @@ void main() {
   vec2 dx = dFdx(vLightUv) * uPageSize;
   vec2 dy = dFdy(vLightUv) * uPageSize;
   float level = clamp(0.5 * log2(max(max(dot(dx, dx), dot(dy, dy)), 1e-8)), 0.0, 1.0);
-  vec3 sky = textureLod(uSkyPage, vLightUv, level).rgb * vScale.x;
-  float sunCosine = textureLod(uSunPage, vLightUv, level).r * vScale.y;
-  vec3 indirect = vScale.z > 0.0 ? textureLod(uIndirectPage, vLightUv, level).rgb * vScale.z : vec3(0.0);
-  vec3 lamps = vScale.w > 0.0 ? textureLod(uLampPage, vLightUv, level).rgb * vScale.w : vec3(0.0);
-  vec3 illuminance = uParts.x * sunCosine * uSunKlx + uParts.y * sky + uParts.z * indirect + uParts.w * lamps;
+  if (uPicture == ${pictureNumber['sky-view']}) {
+    outColor = falseColour(textureLod(uSkyViewPage, vLightUv, level).r);
+    return;
+  }
+  vec3 illuminance = lightOf(uSkyPage, uSunPage, uIndirectPage, vScale, uSunKlx[0], level);
+  if (uBlend > 0.0) illuminance = mix(illuminance, lightOf(uSkyPageB, uSunPageB, uIndirectPageB, vScaleB, uSunKlx[1], level), uBlend);
+  if (vScale.w > 0.0) illuminance += uParts.w * textureLod(uLampPage, vLightUv, level).rgb * vScale.w;
+  if (uPicture == ${numbersPicture}) {
+    outColor = vec4(1000.0 * dot(illuminance, vec3(0.2126, 0.7152, 0.0722)), length(vPosition - cameraPosition), 0.0, 1.0);
+    return;
+  }
+  if (uPicture == ${pictureNumber.illuminance}) {
+    outColor = falseColour(1000.0 * dot(illuminance, vec3(0.2126, 0.7152, 0.0722)));
+    return;
+  }
   vec3 radiance = albedo * illuminance * RECIPROCAL_PI;
   if (uPicture == ${pictureNumber.lit}) { // light alone is for comparing walls, near and far
     vec3 ray = vPosition - cameraPosition;

@@ -1,57 +1,28 @@
 import * as THREE from 'three';
-import { MeshBVH } from 'three-mesh-bvh';
-import type { City } from './city';
+import type { CityRays } from './city_rays';
 
 /** Height of the eye over the ground, metres. */
 export const eyeHeight = 1.7;
 
 const down = new THREE.Vector3(0, -1, 0);
 
-/** What stands where: rays against the whole city, for feet and shoulders. Scene coordinates (y up). */
+/** What stands where, for feet and shoulders. Scene coordinates (y up). */
 export class Ground {
-  private constructor(
-    private readonly bvh: MeshBVH,
+  constructor(
+    private readonly rays: CityRays,
     private readonly bounds: THREE.Box3,
   ) {}
 
-  /** A tree over all triangles; about half a second per million of them. */
-  static build(city: City): Ground {
-    let vertexCount = 0;
-    let indexCount = 0;
-    const geometries = city.group.children.map((child) => (child as THREE.Mesh).geometry);
-    for (const geometry of geometries) {
-      vertexCount += geometry.getAttribute('position').count;
-      indexCount += geometry.index?.count ?? 0;
-    }
-    const position = new Float32Array(vertexCount * 3);
-    const index = new Uint32Array(indexCount);
-    let vertex = 0;
-    let slot = 0;
-    for (const geometry of geometries) {
-      const source = geometry.getAttribute('position');
-      position.set(source.array, vertex * 3);
-      const triangles = geometry.index?.array ?? [];
-      for (let i = 0; i < triangles.length; ++i) index[slot + i] = vertex + (triangles[i] ?? 0);
-      vertex += source.count;
-      slot += triangles.length;
-    }
-    const merged = new THREE.BufferGeometry();
-    merged.setAttribute('position', new THREE.BufferAttribute(position, 3));
-    merged.setIndex(new THREE.BufferAttribute(index, 1));
-    return new Ground(new MeshBVH(merged), city.bounds.clone());
-  }
-
   /** The first thing straight below a point, if there is any. */
   below(point: THREE.Vector3): { y: number; slope: number } | null {
-    const hit = this.bvh.raycastFirst(new THREE.Ray(point, down), THREE.DoubleSide);
-    if (!hit) return null;
-    return { y: hit.point.y, slope: Math.abs(hit.face?.normal.y ?? 0) };
+    const hit = this.rays.first(point, down);
+    return hit && { y: hit.point.y, slope: Math.abs(hit.normal.y) };
   }
 
   /** Free distance from a point in a unit direction, at most `limit` metres; and the normal of what stands there. */
   ahead(point: THREE.Vector3, direction: THREE.Vector3, limit: number): { distance: number; normal: THREE.Vector3 | null } {
-    const hit = this.bvh.raycastFirst(new THREE.Ray(point, direction), THREE.DoubleSide, 0, limit);
-    return hit ? { distance: hit.distance, normal: hit.face?.normal.clone() ?? null } : { distance: limit, normal: null };
+    const hit = this.rays.first(point, direction, limit);
+    return hit ? { distance: hit.distance, normal: hit.normal } : { distance: limit, normal: null };
   }
 
   /** The feet's place under (x, z) when it is walkable from `feetY`: no higher than a step above. Null off the world or at a wall. */

@@ -11,6 +11,8 @@ export interface LightTextures {
   scales: THREE.DataTexture;
   pages: { sky: THREE.Texture; sun: THREE.Texture; indirect: THREE.Texture | null }[];
   panorama: THREE.DataTexture;
+  /** On the graphics card, with the mip levels, bytes. */
+  bytes: number;
   air: { molecules: THREE.DataTexture; haze: THREE.DataTexture } | null;
   dispose(): void;
 }
@@ -19,6 +21,16 @@ export interface LightTextures {
 export async function makeLampTextures(lamps: LampLight): Promise<THREE.Texture[]> {
   const textures = await Promise.all(lamps.pages.map(decodePage));
   for (const texture of textures) texture.colorSpace = THREE.SRGBColorSpace;
+  return textures;
+}
+
+/** Linear 8-bit shares (the sky view factor) on the graphics card. Throws LoadError. */
+export async function makeShareTextures(pages: readonly EncodedPage[]): Promise<THREE.Texture[]> {
+  const textures = await Promise.all(pages.map(decodePage));
+  for (const texture of textures) {
+    texture.colorSpace = THREE.NoColorSpace;
+    texture.format = THREE.RedFormat;
+  }
   return textures;
 }
 
@@ -42,11 +54,14 @@ export async function makeLightTextures(light: InstantLight, lampScales: Float32
     molecules: makeTurnTexture(airlight.molecules, airlight.columns, airlight.rows),
     haze: makeTurnTexture(airlight.haze, airlight.columns, airlight.rows),
   };
+  const texels = light.pages.reduce((sum, { sky }) => sum + sky.width * sky.height, 0);
+  const bytesATexel = 4 + 1 + (light.indirectScales ? 4 : 0);
   return {
     scales,
     pages,
     panorama,
     air,
+    bytes: Math.round((4 / 3) * texels * bytesATexel) + 16 * (light.scales.length / 2) + 8 * width * height,
     dispose() {
       scales.dispose();
       panorama.dispose();
@@ -61,15 +76,15 @@ export async function makeLightTextures(light: InstantLight, lampScales: Float32
   };
 }
 
-/** Puts an instant's light into the uniforms that the city's materials share. */
-export function applyLight(textures: LightTextures, instant: BakedInstant, shared: SharedUniforms, pages: readonly PageUniforms[]): void {
-  shared.uScales.value = textures.scales;
-  shared.uSunKlx.value.fromArray(instant.sun.normal_illuminance_klx);
-  if (instant.air && textures.air) applyAir(shared, instant.air, instant.sun.direction as [number, number, number], textures.air);
+/** Puts an instant's light into the uniforms that the city's materials share: as the one on show (slot 0), or the one that it fades into. */
+export function applyLight(slot: 0 | 1, textures: LightTextures, instant: BakedInstant, shared: SharedUniforms, pages: readonly PageUniforms[]): void {
+  (slot === 0 ? shared.uScales : shared.uScalesB).value = textures.scales;
+  shared.uSunKlx.value[slot].fromArray(instant.sun.normal_illuminance_klx);
+  if (instant.air && textures.air) applyAir(shared, slot, instant.air, instant.sun.direction as [number, number, number], textures.air);
   pages.forEach((page, p) => {
-    page.uSkyPage.value = textures.pages[p]?.sky ?? null;
-    page.uSunPage.value = textures.pages[p]?.sun ?? null;
-    page.uIndirectPage.value = textures.pages[p]?.indirect ?? null;
+    (slot === 0 ? page.uSkyPage : page.uSkyPageB).value = textures.pages[p]?.sky ?? null;
+    (slot === 0 ? page.uSunPage : page.uSunPageB).value = textures.pages[p]?.sun ?? null;
+    (slot === 0 ? page.uIndirectPage : page.uIndirectPageB).value = textures.pages[p]?.indirect ?? null;
   });
 }
 

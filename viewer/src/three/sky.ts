@@ -1,8 +1,7 @@
 import * as THREE from 'three';
 import type { BakedInstant } from '../core/bake';
-import type { Panorama } from '../core/panorama';
 import { airShader } from './air';
-import { displayShader, type SharedUniforms } from './city_material';
+import { displayShader, firstMeasure, type SharedUniforms } from './city_material';
 
 const vertexShader = /* glsl */ `
 uniform mat4 uClipToWorld;
@@ -20,12 +19,12 @@ void main() {
 const fragmentShader = /* glsl */ `
 in vec3 vRay;
 uniform sampler2D uPanorama;
-uniform vec3 uSunDirection;
-uniform vec3 uSunKlx;
-uniform vec3 uLand;
+uniform sampler2D uPanoramaB;
+uniform vec3 uSunDirection[2];
+uniform vec3 uSunKlx[2];
+uniform vec3 uLand[2];
 uniform float uLandHeight;
-uniform float uSunRadius;
-uniform bool uHasSun;
+uniform float uSunRadius[2];
 uniform float uPanoramaHeight;
 uniform int uPicture;
 layout(location = 0) out vec4 outColor;
@@ -36,6 +35,14 @@ const float kPi = 3.141592653589793;
 
 void main() {
   vec3 direction = normalize(vRay);
+  if (uPicture > ${firstMeasure} + 1) { // numbers: no surface
+    outColor = vec4(0.0);
+    return;
+  }
+  if (uPicture >= ${firstMeasure}) { // measures: paper behind them, of a grey that the scale does not hold
+    outColor = linearToOutputTexel(vec4(vec3(0.8), 1.0));
+    return;
+  }
   if (uPicture == 1) { // textures alone: paper behind them, no light
     float shade = mix(0.62, 0.82, smoothstep(-0.3, 0.6, direction.y));
     vec4 paper = linearToOutputTexel(vec4(vec3(shade) * vec3(0.93, 0.96, 1.0), 1.0));
@@ -47,27 +54,41 @@ void main() {
   float azimuth = atan(direction.x, -direction.z);
   // The first row's centre is the zenith, the last row's the horizon; no gradients, so that the seam at azimuth 0 stays sharp.
   float row = clamp(1.0 - elevation / (0.5 * kPi), 0.0, 1.0) * (uPanoramaHeight - 1.0) + 0.5;
-  vec3 sky = textureLod(uPanorama, vec2(azimuth / (2.0 * kPi), row / uPanoramaHeight), 0.0).rgb;
+  vec2 place = vec2(azimuth / (2.0 * kPi), row / uPanoramaHeight);
+  vec3 sky = textureLod(uPanorama, place, 0.0).rgb;
+  if (uBlend > 0.0) sky = mix(sky, textureLod(uPanoramaB, place, 0.0).rgb, uBlend);
 
   // Below the horizon level land goes on as far as the air lets one see; the horizon's edge is as wide as a pixel.
   float pixel = max(length(fwidth(direction)), 1e-5);
   float toLand = max(cameraPosition.y - uLandHeight, 1.0) / max(-direction.y, 1e-5);
-  vec3 land = throughAir(uLand, direction, toLand);
+  vec3 land = throughAir(mix(uLand[0], uLand[1], uBlend), direction, toLand);
   vec3 radiance = mix(land, sky, smoothstep(-0.5 * pixel, 0.5 * pixel, elevation));
 
-  if (uHasSun) {
-    float angle = acos(clamp(dot(direction, uSunDirection), -1.0, 1.0));
+  for (int i = 0; i < 2; ++i) { // between two instants both suns are there, each as far as its light is
+    float share = i == 0 ? 1.0 - uBlend : uBlend;
+    if (share == 0.0 || uSunRadius[i] == 0.0) continue;
+    float angle = acos(clamp(dot(direction, uSunDirection[i]), -1.0, 1.0));
     // Half the beam within the disc would already be white; the disc keeps its true radius, softened over one pixel.
-    float disc = (1.0 - smoothstep(uSunRadius - 0.5 * pixel, uSunRadius + 0.5 * pixel, angle)) * smoothstep(-0.5 * pixel, 0.5 * pixel, elevation);
-    vec3 discRadiance = uSunKlx / (kPi * uSunRadius * uSunRadius);
+    float disc = (1.0 - smoothstep(uSunRadius[i] - 0.5 * pixel, uSunRadius[i] + 0.5 * pixel, angle)) * smoothstep(-0.5 * pixel, 0.5 * pixel, elevation);
+    vec3 discRadiance = uSunKlx[i] / (kPi * uSunRadius[i] * uSunRadius[i]);
     // Forward scatter of the eye and of haze about the sun; strength and width by eye, well below the sky's own aureole from 5° on.
-    vec3 glow = uSunKlx * (0.6 * exp(-angle / 0.012) + 0.05 * exp(-angle / 0.06)) * smoothstep(-0.02, 0.01, elevation);
-    radiance += disc * discRadiance + glow;
+    vec3 glow = uSunKlx[i] * (0.6 * exp(-angle / 0.012) + 0.05 * exp(-angle / 0.06)) * smoothstep(-0.02, 0.01, elevation);
+    radiance += share * (disc * discRadiance + glow);
   }
   // Half-float targets and the tone mapper's logarithm stay finite.
   outColor = toDisplay(min(radiance, vec3(6.0e4)));
 }
 `;
+
+interface SkyUniforms {
+  uPanorama: THREE.IUniform<THREE.Texture | null>;
+  uPanoramaB: THREE.IUniform<THREE.Texture | null>;
+  uPanoramaHeight: THREE.IUniform<number>;
+  uSunDirection: THREE.IUniform<[THREE.Vector3, THREE.Vector3]>;
+  uSunRadius: THREE.IUniform<[number, number]>;
+  uLand: THREE.IUniform<[THREE.Vector3, THREE.Vector3]>;
+  uLandHeight: THREE.IUniform<number>;
+}
 
 /** The sky that the bake's light came from, with the sun's disc in its true size. */
 export class SkyDome {
@@ -84,11 +105,11 @@ export class SkyDome {
         ...shared,
         uClipToWorld: { value: this.clipToWorld },
         uPanorama: { value: null },
+        uPanoramaB: { value: null },
         uPanoramaHeight: { value: 1 },
-        uSunDirection: { value: new THREE.Vector3(0, 1, 0) },
-        uSunRadius: { value: 0.00465 },
-        uHasSun: { value: false },
-        uLand: { value: new THREE.Vector3() },
+        uSunDirection: { value: [new THREE.Vector3(0, 1, 0), new THREE.Vector3(0, 1, 0)] },
+        uSunRadius: { value: [0, 0] }, // 0: no sun
+        uLand: { value: [new THREE.Vector3(), new THREE.Vector3()] },
         uLandHeight: { value: 0 },
       },
       vertexShader,
@@ -105,22 +126,18 @@ export class SkyDome {
     };
   }
 
-  /** `landHeightM` is where the land about the city lies. */
-  apply(texture: THREE.DataTexture, panorama: Panorama, instant: BakedInstant, landHeightM: number): void {
-    const uniforms = this.mesh.material.uniforms;
+  /** The sky of the instant on show (slot 0), or of the one that it fades into. `landHeightM` is where the land about the city lies. */
+  apply(slot: 0 | 1, panorama: THREE.DataTexture, instant: BakedInstant, landHeightM: number): void {
+    const uniforms = this.mesh.material.uniforms as unknown as SkyUniforms;
     const { sun } = instant;
-    const set = (name: string, value: unknown) => {
-      const uniform = uniforms[name];
-      if (uniform) uniform.value = value;
-    };
     const [east, north, up] = sun.direction;
-    set('uPanorama', texture);
-    set('uPanoramaHeight', panorama.height);
-    set('uSunDirection', new THREE.Vector3(east, up, -north).normalize());
-    set('uSunRadius', THREE.MathUtils.degToRad(sun.angular_radius_deg));
-    set('uHasSun', sun.shape !== 'none' && sun.normal_illuminance_klx.some((klx) => klx > 0));
-    set('uLand', new THREE.Vector3().fromArray(instant.sky.land_kcd_m2));
-    set('uLandHeight', landHeightM);
+    uniforms[slot === 0 ? 'uPanorama' : 'uPanoramaB'].value = panorama;
+    uniforms.uPanoramaHeight.value = panorama.image.height;
+    uniforms.uSunDirection.value[slot].set(east, up, -north).normalize();
+    const hasSun = sun.shape !== 'none' && sun.normal_illuminance_klx.some((klx) => klx > 0);
+    uniforms.uSunRadius.value[slot] = hasSun ? THREE.MathUtils.degToRad(sun.angular_radius_deg) : 0;
+    uniforms.uLand.value[slot].fromArray(instant.sky.land_kcd_m2);
+    uniforms.uLandHeight.value = landHeightM;
   }
 
   dispose(): void {

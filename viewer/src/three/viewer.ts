@@ -1,24 +1,23 @@
 import * as THREE from 'three';
-import type { Bake, LampLight } from '../core/bake';
-import { exposureFactor } from '../core/exposure';
+import type { Bake } from '../core/bake';
+import { momentOfOther, type Comparison } from '../core/comparison';
+import type { FalseColour } from '../core/false_colour';
 import type { OnBytes } from '../core/fetch';
 import type { LightPart } from '../core/light_parts';
-import { LoadError } from '../core/load_error';
 import type { Mode, Picture } from '../core/pictures';
-import { text } from '../core/text';
 import { sceneToWorld, worldToScene, type Vec3 } from '../core/units';
-import { makeSharedUniforms, setPartsOff, setPicture } from './city_material';
-import { loadCity, type City } from './city';
-import { Ground } from './ground';
-import { applyLight, makeLampTextures, makeLightTextures, type LightTextures } from './light';
+import { BakedScene } from './baked_scene';
+import type { Hit, SurfacePoint } from './city_rays';
+import { DifferencePass } from './difference';
 import { OrbitMode } from './orbit';
-import { SkyDome } from './sky';
 import { WalkMode, type WalkKey } from './walk';
 
 export interface ViewerOptions {
   antialias: boolean;
   onViewChange: () => void;
   onContextLost: () => void;
+  /** A file that was asked for later cannot be shown. */
+  onError: (error: unknown) => void;
 }
 
 export interface ViewerStats {
@@ -27,34 +26,41 @@ export interface ViewerStats {
   triangles: number;
   textures: number;
   geometries: number;
+  /** Of city.glb, before joining. */
+  primitives: number;
+  /** Lightmaps, and albedo textures, on the graphics card. */
+  lightBytes: number;
+  textureBytes: number;
 }
 
-const cityUri = 'city.glb';
+/** What a click met: the surface of one of the bakes. Scene coordinates of that bake. */
+export interface Picked {
+  baked: BakedScene;
+  hit: Hit;
+  surface: SurfacePoint;
+}
 
-/** Draws one bake. Positions at its surface are world metres (z up); inside all is the scene's frame (y up). */
+/** Draws a bake. Positions at its surface are world metres (z up); inside all is the scene's frame (y up). */
 export class Viewer {
   private readonly renderer: THREE.WebGLRenderer;
-  private readonly scene = new THREE.Scene();
   private readonly camera = new THREE.PerspectiveCamera(60, 1, 0.2, 1000);
-  private readonly shared = makeSharedUniforms();
-  private readonly sky = new SkyDome(this.shared);
   private readonly resizeObserver: ResizeObserver;
   private orbit: OrbitMode | null = null;
   private walk: WalkMode | null = null;
-  private ground: Ground | null = null;
-  private city: City | null = null;
-  private light: LightTextures | null = null;
-  private lamps: LampLight | null = null;
-  private lampTextures: THREE.Texture[] = [];
+  private baked: BakedScene | null = null;
+  private other: BakedScene | null = null;
+  /** From the frame of the first bake into that of the other. */
+  private readonly shift = new THREE.Vector3();
+  private comparison: Comparison = 'swipe';
+  private divider = 0.5;
+  private differenceLx = 1;
+  private difference: DifferencePass | null = null;
   private partsOff: readonly LightPart[] = [];
-  private bake: Bake | null = null;
   private currentMode: Mode = 'orbit';
   private currentPicture: Picture = 'lit';
-  private currentInstant = -1;
   private currentEv = 0;
+  private currentScale: FalseColour = { low: 100, high: 100_000, isLogarithmic: true };
   private isAirSeen = true;
-  private requestedInstant = -1;
-  private loading: AbortController | null = null;
   private frameRequest: number | null = null;
   private lastFrameMs: number | null = null;
   private frames = 0;
@@ -69,8 +75,7 @@ export class Viewer {
     // Of AgX, Khronos neutral and ACES the first keeps shadows that only the sky lights readable beside sunlit walls.
     this.renderer.toneMapping = THREE.AgXToneMapping;
     this.renderer.toneMappingExposure = 1; // the shaders multiply by uExposure themselves
-    this.renderer.info.autoReset = true;
-    this.scene.add(this.sky.mesh);
+    this.renderer.info.autoReset = false; // a frame may be two pictures
     canvas.addEventListener('webglcontextlost', (event) => {
       event.preventDefault();
       options.onContextLost();
@@ -80,63 +85,54 @@ export class Viewer {
     this.resize();
   }
 
-  /** Loads the city; the light comes with showInstant(). Throws LoadError. */
+  /** Loads the city; the light comes with showMoment(). Throws LoadError. */
   async open(bake: Bake, onBytes: OnBytes): Promise<void> {
-    this.bake = bake;
-    const bytes = await bake.fetch(cityUri, onBytes);
-    const city = await loadCity(bake.url(cityUri), bytes, bake.manifest.pages, this.shared, this.renderer.capabilities.getMaxAnisotropy());
-    if (city.chartCount > bake.manifest.charts) throw new LoadError(bake.url(cityUri), text.error.tooManyCharts(city.chartCount, bake.manifest.charts));
-    this.city = city;
-    this.lamps = await bake.loadLamps(onBytes);
-    if (this.lamps) {
-      this.lampTextures = await makeLampTextures(this.lamps);
-      city.pages.forEach((page, p) => (page.uLampPage.value = this.lampTextures[p] ?? null));
-    }
-    this.orbit = new OrbitMode(this.camera, this.canvas, city.bounds, () => this.changed());
+    this.baked = await BakedScene.open(bake, this.renderer.capabilities.getMaxAnisotropy(), onBytes);
+    this.orbit = new OrbitMode(this.camera, this.canvas, this.baked.city.bounds, () => this.changed());
     this.orbit.enabled = true;
     this.lookAt(this.birdsEye().position, this.birdsEye().target);
   }
 
-  /**
-   * Loads the light of an instant and shows it; the one before is freed. A later call overtakes an earlier one.
-   * Returns false when it was overtaken. Throws LoadError.
-   */
-  async showInstant(index: number, onBytes: OnBytes): Promise<boolean> {
-    const { bake, city } = this;
-    if (!bake || !city) throw new Error('no city is open');
-    if (index === this.currentInstant && this.requestedInstant === index) return true;
-    this.loading?.abort();
-    const loading = new AbortController();
-    this.loading = loading;
-    this.requestedInstant = index;
-    try {
-      const files = await bake.loadInstant(index, bake.manifest.charts, onBytes, loading.signal);
-      const light = await makeLightTextures(files, this.lamps?.scales ?? null);
-      if (loading.signal.aborted) {
-        light.dispose();
-        return false;
-      }
-      const instant = bake.instant(index);
-      const old = this.light;
-      this.light = light;
-      applyLight(light, instant, this.shared, city.pages);
-      this.sky.apply(light.panorama, files.panorama, instant, bake.manifest.bounds.min[2] ?? 0);
-      old?.dispose();
-      if (!city.group.parent) this.scene.add(city.group);
-      this.currentInstant = index;
-      this.shared.uHasAir.value = this.isAirSeen && this.hasAir;
-      this.applyExposure();
-      this.changed();
-      return true;
-    } catch (error) {
-      if (loading.signal.aborted) return false;
-      this.requestedInstant = this.currentInstant;
-      throw error;
-    }
+  /** Loads a second bake to compare with. Throws LoadError. */
+  async openOther(bake: Bake, onBytes: OnBytes): Promise<void> {
+    if (!this.baked) throw new Error('no city is open');
+    const other = await BakedScene.open(bake, this.renderer.capabilities.getMaxAnisotropy(), onBytes);
+    other.exposedAs = this.baked;
+    const [ownOrigin, otherOrigin] = [this.baked.bake.manifest.origin, bake.manifest.origin];
+    this.shift.fromArray(worldToScene([0, 1, 2].map((i) => (ownOrigin[i] ?? 0) - (otherOrigin[i] ?? 0)) as unknown as Vec3));
+    this.other = other;
   }
 
-  get instant(): number {
-    return this.currentInstant;
+  /** What is shown of two bakes, and where the divider stands, 0…1 from the left. */
+  compare(comparison: Comparison, divider: number, differenceLx: number): void {
+    this.comparison = comparison;
+    this.divider = divider;
+    this.differenceLx = differenceLx;
+    this.changed();
+  }
+
+  /**
+   * Loads and shows an instant, or the cross-fade of two neighbours for a moment between them. A later call overtakes an earlier one.
+   * Returns false when it was overtaken. Throws LoadError.
+   */
+  async showMoment(moment: number, onBytes: OnBytes): Promise<boolean> {
+    if (!this.baked) throw new Error('no city is open');
+    const { baked, other } = this;
+    const shown = [baked.showMoment(moment, onBytes)];
+    if (other) shown.push(other.showMoment(momentOfOther(baked.bake.manifest.instants, other.bake.manifest.instants, moment), onBytes));
+    if ((await Promise.all(shown)).includes(false)) return false;
+    this.applyDisplay();
+    return true;
+  }
+
+  /** Number of the instant on show, between two of them while they fade; −1 before the first. */
+  get moment(): number {
+    return this.baked?.moment ?? -1;
+  }
+
+  /** Instants that are not at hand for a moment. */
+  missingFor(moment: number): number[] {
+    return this.baked?.missingFor(moment) ?? []; // the other bake's come along
   }
 
   get picture(): Picture {
@@ -145,9 +141,17 @@ export class Viewer {
 
   set picture(picture: Picture) {
     this.currentPicture = picture;
-    setPicture(this.shared, picture);
-    this.applyExposure();
-    this.changed();
+    this.applyDisplay();
+  }
+
+  /** Range of the false colours: lx, or the factor itself for the sky view. */
+  get scale(): FalseColour {
+    return this.currentScale;
+  }
+
+  set scale(scale: FalseColour) {
+    this.currentScale = scale;
+    this.applyDisplay();
   }
 
   /** Whether the air between the eye and the city is drawn, in bakes that know it. */
@@ -157,13 +161,7 @@ export class Viewer {
 
   set air(isSeen: boolean) {
     this.isAirSeen = isSeen;
-    this.shared.uHasAir.value = isSeen && this.hasAir;
-    this.changed();
-  }
-
-  /** Whether the instant on show has air. */
-  get hasAir(): boolean {
-    return this.bake !== null && this.currentInstant >= 0 && this.bake.instant(this.currentInstant).air !== undefined;
+    this.applyDisplay();
   }
 
   /** Parts of the light that the city is shown without. */
@@ -173,8 +171,7 @@ export class Viewer {
 
   set off(parts: readonly LightPart[]) {
     this.partsOff = parts;
-    setPartsOff(this.shared, parts);
-    this.changed();
+    this.applyDisplay();
   }
 
   get ev(): number {
@@ -183,18 +180,63 @@ export class Viewer {
 
   set ev(ev: number) {
     this.currentEv = ev;
-    this.applyExposure();
-    this.changed();
+    this.applyDisplay();
   }
 
   /** The factor from kcd/m² to the tone mapper's input. */
   get exposure(): number {
-    return this.shared.uExposure.value;
+    return this.baked?.exposure ?? 1;
   }
 
   set toneMapping(name: 'agx' | 'none') {
     this.renderer.toneMapping = name === 'agx' ? THREE.AgXToneMapping : THREE.NoToneMapping;
     this.changed();
+  }
+
+  /** The surface at a place of the canvas, CSS pixels from its upper left corner, of the bake that is seen there; null where the sky is. */
+  pick(x: number, y: number): Picked | null {
+    const { clientWidth } = this.canvas;
+    const isOther = this.other !== null && (this.comparison === 'b' || (this.comparison === 'swipe' && x > this.divider * clientWidth));
+    const baked = isOther ? this.other : this.baked;
+    if (!baked) return null;
+    const { origin, direction } = this.rayAt(x, y);
+    if (isOther) origin.add(this.shift);
+    return pickOf(baked, origin, direction);
+  }
+
+  /** The same place of the other bake, where its surface is there, too. */
+  pickTwin({ baked, hit }: Picked): Picked | null {
+    if (!this.other || !this.baked) return null;
+    const twin = baked === this.baked ? this.other : this.baked;
+    const shift = this.shift.clone().multiplyScalar(twin === this.other ? 1 : -1);
+    const above = 0.05; // metres: closer than two surfaces of a city stand
+    const found = pickOf(twin, hit.point.clone().add(shift).addScaledVector(hit.normal, above), hit.normal.clone().negate());
+    return found && found.hit.distance < 2 * above ? found : null;
+  }
+
+  /** A point of a bake's scene as a world position of the first. */
+  worldOf({ baked, hit }: Picked): Vec3 {
+    const point = hit.point.clone();
+    return sceneToWorld((baked === this.other ? point.sub(this.shift) : point).toArray());
+  }
+
+  isOther(picked: Picked): boolean {
+    return picked.baked === this.other;
+  }
+
+  private rayAt(x: number, y: number): THREE.Ray {
+    const raycaster = new THREE.Raycaster();
+    this.camera.updateMatrixWorld();
+    raycaster.setFromCamera(new THREE.Vector2((2 * x) / this.canvas.clientWidth - 1, 1 - (2 * y) / this.canvas.clientHeight), this.camera);
+    return raycaster.ray;
+  }
+
+  /** Where a world position is on the canvas, CSS pixels; null behind the camera. */
+  project(position: Vec3): { x: number; y: number } | null {
+    this.camera.updateMatrixWorld();
+    const point = new THREE.Vector3(...worldToScene(position)).project(this.camera);
+    if (point.z > 1) return null;
+    return { x: (0.5 + 0.5 * point.x) * this.canvas.clientWidth, y: (0.5 - 0.5 * point.y) * this.canvas.clientHeight };
   }
 
   get mode(): Mode {
@@ -219,9 +261,9 @@ export class Viewer {
    * False when there is no ground to stand on; the mode is then unchanged.
    */
   walkFrom(view: { position: Vec3; target: Vec3 } | null): boolean {
-    const { city, orbit } = this;
-    if (!city || !orbit) return false;
-    const walk = this.prepareWalk(city);
+    const { baked, orbit } = this;
+    if (!baked || !orbit) return false;
+    const walk = this.prepareWalk(baked);
     const eye = new THREE.Vector3();
     let yaw = 0;
     let pitch = 0;
@@ -231,8 +273,8 @@ export class Viewer {
       yaw = Math.atan2(gaze.x, -gaze.z);
       pitch = Math.atan2(gaze.y, Math.hypot(gaze.x, gaze.z));
     } else {
-      const target = orbit.target.clamp(city.bounds.min, city.bounds.max);
-      const place = this.ground?.openPlaceNear(target.x, target.z);
+      const target = orbit.target.clamp(baked.city.bounds.min, baked.city.bounds.max);
+      const place = baked.ground.openPlaceNear(target.x, target.z);
       if (!place) return false;
       eye.copy(place.feet).setY(place.feet.y + 1);
       yaw = place.yaw;
@@ -268,16 +310,17 @@ export class Viewer {
 
   /** A view of the whole city from the side that the first instant's sun lights. */
   birdsEye(): { position: Vec3; target: Vec3 } {
-    if (!this.city || !this.bake) return { position: [0, -1, 1], target: [0, 0, 0] };
-    const size = this.city.bounds.getSize(new THREE.Vector3());
-    const center = this.city.bounds.getCenter(new THREE.Vector3());
+    if (!this.baked) return { position: [0, -1, 1], target: [0, 0, 0] };
+    const { bounds } = this.baked.city;
+    const size = bounds.getSize(new THREE.Vector3());
+    const center = bounds.getCenter(new THREE.Vector3());
     const radius = 0.5 * Math.hypot(size.x, size.z);
-    const sun = this.bake.manifest.instants[0]?.sun.direction ?? [0, -1, 1];
+    const sun = this.baked.bake.manifest.instants[0]?.sun.direction ?? [0, -1, 1];
     // From the sun's side, but a third of a right angle off: walls are lit and shadows still show.
     const azimuth = Math.atan2(sun[0], sun[1]) + Math.PI / 6;
     const elevation = THREE.MathUtils.degToRad(32);
     const distance = 1.35 * radius;
-    const target = new THREE.Vector3(center.x, this.city.bounds.min.y + Math.min(0.5 * size.y, 10), center.z);
+    const target = new THREE.Vector3(center.x, bounds.min.y + Math.min(0.5 * size.y, 10), center.z);
     const position = target.clone().add(new THREE.Vector3(
       Math.sin(azimuth) * Math.cos(elevation) * distance, Math.sin(elevation) * distance, -Math.cos(azimuth) * Math.cos(elevation) * distance));
     return { position: sceneToWorld(position.toArray()), target: sceneToWorld(target.toArray()) };
@@ -285,16 +328,22 @@ export class Viewer {
 
   /** How high a world position stands over what is below it; null above nothing. */
   heightOverGround(position: Vec3): number | null {
-    if (!this.city) return null;
-    this.prepareWalk(this.city);
     const point = new THREE.Vector3(...worldToScene(position));
-    const below = this.ground?.below(point);
+    const below = this.baked?.ground.below(point);
     return below ? point.y - below.y : null;
   }
 
   stats(): ViewerStats {
     const { render, memory } = this.renderer.info;
-    return { frames: this.frames, drawCalls: render.calls, triangles: this.city?.triangleCount ?? 0, textures: memory.textures, geometries: memory.geometries };
+    const all = [this.baked, this.other].filter((baked) => baked !== null);
+    const sum = (of: (baked: BakedScene) => number): number => all.reduce((total, baked) => total + of(baked), 0);
+    return {
+      frames: this.frames, drawCalls: render.calls, textures: memory.textures, geometries: memory.geometries,
+      triangles: sum(({ city }) => city.triangleCount),
+      primitives: sum(({ city }) => city.primitiveCount),
+      lightBytes: sum(({ lightBytes }) => lightBytes),
+      textureBytes: sum(({ city }) => city.textureBytes),
+    };
   }
 
   /** Draws now and waits for the graphics card; returns milliseconds. */
@@ -304,6 +353,12 @@ export class Viewer {
     const gl = this.renderer.getContext();
     gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
     return performance.now() - begun;
+  }
+
+  /** Draws now; what is seen as a PNG. */
+  picturePng(): Promise<Blob> {
+    this.draw();
+    return new Promise((resolve, reject) => this.canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error('no PNG'))), 'image/png'));
   }
 
   /** Draws now and reads a block of pixels, 0…255, from the upper left corner of the canvas in device pixels. */
@@ -317,18 +372,17 @@ export class Viewer {
     return topDown;
   }
 
-  private prepareWalk(city: City): WalkMode {
-    if (!this.ground) this.ground = Ground.build(city);
-    if (!this.walk) {
-      const size = city.bounds.getSize(new THREE.Vector3()).length();
-      this.walk = new WalkMode(this.camera, this.canvas, this.ground, size, () => this.changed());
-    }
-    return this.walk;
+  private prepareWalk({ city, ground }: BakedScene): WalkMode {
+    const size = city.bounds.getSize(new THREE.Vector3()).length();
+    return (this.walk ??= new WalkMode(this.camera, this.canvas, ground, size, () => this.changed()));
   }
 
-  private applyExposure(): void {
-    if (!this.bake || this.currentInstant < 0) return;
-    this.shared.uExposure.value = exposureFactor(this.bake.instant(this.currentInstant).exposure_hint, this.currentEv, this.currentPicture);
+  private applyDisplay(): void {
+    this.changed();
+    const show = async (): Promise<void> => {
+      for (const baked of [this.baked, this.other]) await baked?.show(this.currentPicture, this.currentEv, this.isAirSeen, this.partsOff, this.currentScale);
+    };
+    show().then(() => this.changed(), this.options.onError);
   }
 
   /** Something changed: one frame is drawn, at most one a refresh of the screen. */
@@ -348,9 +402,34 @@ export class Viewer {
   }
 
   private draw(): void {
-    if (!this.light) return; // no picture before the first light
-    this.renderer.render(this.scene, this.camera);
+    if (!this.baked || this.moment < 0) return; // no picture before the first light
+    this.renderer.info.reset();
+    if (!this.other || this.other.moment < 0 || this.comparison === 'a') this.baked.draw(this.renderer, this.camera);
+    else this.drawBoth(this.baked, this.other);
     ++this.frames;
+  }
+
+  private drawBoth(baked: BakedScene, other: BakedScene): void {
+    const { renderer, camera } = this;
+    camera.updateMatrixWorld();
+    const otherCamera = camera.clone();
+    otherCamera.position.add(this.shift);
+    otherCamera.updateMatrixWorld();
+    if (this.comparison === 'b') {
+      other.draw(renderer, otherCamera);
+    } else if (this.comparison === 'difference') {
+      this.difference ??= new DifferencePass();
+      this.difference.draw(renderer, this.differenceLx, (which) => (which === 0 ? baked.draw(renderer, camera, 'numbers') : other.draw(renderer, otherCamera, 'numbers')));
+    } else {
+      const { clientWidth, clientHeight } = this.canvas;
+      const left = Math.round(this.divider * clientWidth);
+      renderer.setScissorTest(true);
+      renderer.setScissor(0, 0, left, clientHeight);
+      baked.draw(renderer, camera);
+      renderer.setScissor(left, 0, clientWidth - left, clientHeight);
+      other.draw(renderer, otherCamera);
+      renderer.setScissorTest(false);
+    }
   }
 
   private resize(): void {
@@ -366,13 +445,19 @@ export class Viewer {
   dispose(): void {
     if (this.frameRequest !== null) cancelAnimationFrame(this.frameRequest);
     this.resizeObserver.disconnect();
-    this.loading?.abort();
     this.orbit?.dispose();
     this.walk?.dispose();
-    this.city?.dispose();
-    this.light?.dispose();
-    for (const texture of this.lampTextures) texture.dispose();
-    this.sky.dispose();
+    this.baked?.dispose();
+    this.other?.dispose();
+    this.difference?.dispose();
     this.renderer.dispose();
   }
+}
+
+function pickOf(baked: BakedScene, origin: THREE.Vector3, direction: THREE.Vector3): Picked | null {
+  const hit = baked.rays.first(origin, direction);
+  if (!hit) return null;
+  if (hit.normal.dot(direction) > 0) hit.normal.negate(); // the side that is seen
+  const surface = baked.rays.surfaceAt(hit);
+  return surface && { baked, hit, surface };
 }

@@ -1,22 +1,28 @@
 import { evRange } from '../core/exposure';
 import { lightParts, type LightPart } from '../core/light_parts';
 import { modes, pictures, type Mode, type Picture } from '../core/pictures';
-import { text } from '../core/text';
+import { text, texts } from '../core/text';
+import { language, languages } from '../core/text/language';
 import { element } from './element';
 
 export interface PanelActions {
-  instant(index: number): void;
+  /** An instant, or a moment between two. */
+  moment(moment: number): void;
   picture(picture: Picture): void;
   mode(mode: Mode): void;
   view(index: number): void;
   ev(ev: number): void;
   copyLink(): void;
+  savePicture(): void;
+  play(): void;
   air(isSeen: boolean): void;
   part(part: LightPart, isOn: boolean): void;
 }
 
 export interface PanelState {
-  instant: number;
+  moment: number;
+  /** What the moment is called. */
+  label: string;
   picture: Picture;
   mode: Mode;
   ev: number;
@@ -42,6 +48,7 @@ export class Panel {
   private readonly instantSlider: HTMLInputElement;
   private readonly earlier: HTMLButtonElement;
   private readonly later: HTMLButtonElement;
+  private readonly playButton: HTMLButtonElement;
   private readonly pictureButtons = new Map<Picture, HTMLButtonElement>();
   private readonly partButtons = new Map<LightPart, HTMLButtonElement>();
   private readonly modeButtons = new Map<Mode, HTMLButtonElement>();
@@ -52,21 +59,25 @@ export class Panel {
   private readonly airLabel: HTMLElement;
   private airNote: string | null = null;
   private readonly sunNote: HTMLElement;
-  private shownInstant = 0;
+  private readonly between: HTMLOptionElement;
+  private shownMoment = 0;
 
   constructor(content: PanelContent, actions: PanelActions) {
     const last = content.instants.length - 1;
-    this.instantSelect = element('select', { id: 'instant' }, content.instants.map((label, i) => element('option', { value: String(i) }, [label])));
-    this.instantSelect.addEventListener('change', () => actions.instant(Number(this.instantSelect.value)));
-    this.instantSlider = element('input', { type: 'range', min: '0', max: String(last), step: '1', 'aria-label': text.instantSlider });
-    this.instantSlider.addEventListener('input', () => actions.instant(Number(this.instantSlider.value)));
+    this.between = element('option', { value: '', disabled: '', hidden: '' });
+    this.instantSelect = element('select', { id: 'instant' }, [...content.instants.map((label, i) => element('option', { value: String(i) }, [label])), this.between]);
+    this.instantSelect.addEventListener('change', () => actions.moment(Number(this.instantSelect.value)));
+    this.instantSlider = element('input', { type: 'range', min: '0', max: String(last), step: '0.05', 'aria-label': text.instantSlider });
+    this.instantSlider.addEventListener('input', () => actions.moment(Number(this.instantSlider.value)));
     this.earlier = element('button', { type: 'button', 'aria-label': text.previousInstant, title: `${text.previousInstant} (,)` }, ['‹']);
     this.later = element('button', { type: 'button', 'aria-label': text.nextInstant, title: `${text.nextInstant} (.)` }, ['›']);
-    this.earlier.addEventListener('click', () => actions.instant(Math.max(0, this.shownInstant - 1)));
-    this.later.addEventListener('click', () => actions.instant(Math.min(last, this.shownInstant + 1)));
+    this.earlier.addEventListener('click', () => actions.moment(Math.ceil(this.shownMoment) - 1));
+    this.later.addEventListener('click', () => actions.moment(Math.floor(this.shownMoment) + 1));
+    this.playButton = element('button', { type: 'button', title: text.playHint }, [text.play]);
+    this.playButton.addEventListener('click', () => actions.play());
     this.sunNote = element('p', { class: 'note' });
 
-    const pictureGroup = element('div', { class: 'group' }, pictures.map((picture, i) => {
+    const pictureGroup = element('div', { class: 'group wraps' }, pictures.map((picture, i) => {
       const button = element('button', { type: 'button', title: `${text.pictureHints[picture]} (${i + 1})` }, [text.pictures[picture]]);
       button.addEventListener('click', () => actions.picture(picture));
       this.pictureButtons.set(picture, button);
@@ -99,6 +110,8 @@ export class Panel {
 
     const copyLink = element('button', { type: 'button', title: text.copyLinkHint }, [text.copyLink]);
     copyLink.addEventListener('click', () => actions.copyLink());
+    const savePicture = element('button', { type: 'button', title: text.savePictureHint }, [text.savePicture]);
+    savePicture.addEventListener('click', () => actions.savePicture());
     this.airSwitch = element('input', { type: 'checkbox', id: 'air', title: `${text.airHint} (F)` });
     this.airSwitch.addEventListener('change', () => actions.air(this.airSwitch.checked));
     this.airLabel = element('span', { class: 'label' });
@@ -114,12 +127,12 @@ export class Panel {
     ];
     this.root = element('section', { class: 'panel', 'aria-label': text.panelLabel }, [
       element('header', {}, [element('h1', {}, [content.title]), hide]),
-      element('div', { class: 'field' }, last > 0 ? [...instantFields, this.instantSlider] : instantFields),
+      element('div', { class: 'field' }, last > 0 ? [...instantFields, element('div', { class: 'row below slim' }, [this.instantSlider, this.playButton])] : instantFields),
       this.sunNote,
       element('fieldset', { class: 'field' }, [element('legend', {}, [text.picture]), pictureGroup]),
       element('fieldset', { class: 'field' }, [element('legend', {}, [text.parts]), partGroup]),
       element('fieldset', { class: 'field' }, [element('legend', {}, [text.navigation]), modeGroup]),
-      element('div', { class: 'field' }, [element('label', { for: 'view' }, [text.views]), element('div', { class: 'row' }, [this.viewSelect, copyLink])]),
+      element('div', { class: 'field' }, [element('label', { for: 'view' }, [text.views]), element('div', { class: 'row' }, [this.viewSelect]), element('div', { class: 'row below' }, [copyLink, savePicture])]),
       element('div', { class: 'field' }, [
         element('label', { for: 'ev' }, [text.exposure]),
         element('div', { class: 'row' }, [this.evSlider, evReset]),
@@ -131,7 +144,19 @@ export class Panel {
         this.airLabel,
       ]),
       element('p', { class: 'note' }, [text.baked(content.texelM)]),
+      element('div', { class: 'field row' }, [element('label', { for: 'language' }, [text.language]), this.makeLanguages()]),
     ]);
+  }
+
+  private makeLanguages(): HTMLSelectElement {
+    const select = element('select', { id: 'language' }, languages.map((name) => element('option', { value: name, lang: name }, [texts[name].languageName])));
+    select.value = language;
+    select.addEventListener('change', () => {
+      const address = new URL(location.href); // the part behind # restores the view
+      address.searchParams.set('lang', select.value);
+      location.assign(address);
+    });
+    return select;
   }
 
   show(isShown: boolean): void {
@@ -146,19 +171,21 @@ export class Panel {
   }
 
   update(state: PanelState): void {
-    this.shownInstant = state.instant;
-    this.instantSelect.value = String(state.instant);
-    this.instantSlider.value = String(state.instant);
-    this.instantSlider.setAttribute('aria-valuetext', this.instantSelect.selectedOptions[0]?.text ?? '');
-    this.earlier.disabled = state.instant <= 0;
-    this.later.disabled = state.instant >= this.instantSelect.options.length - 1;
+    this.shownMoment = state.moment;
+    this.between.textContent = state.label;
+    this.between.hidden = Number.isInteger(state.moment);
+    this.instantSelect.value = this.between.hidden ? String(state.moment) : '';
+    this.instantSlider.value = String(state.moment);
+    this.instantSlider.setAttribute('aria-valuetext', state.label);
+    this.earlier.disabled = state.moment <= 0;
+    this.later.disabled = state.moment >= Number(this.instantSlider.max);
     for (const [picture, button] of this.pictureButtons) button.setAttribute('aria-pressed', String(picture === state.picture));
     for (const [mode, button] of this.modeButtons) button.setAttribute('aria-pressed', String(mode === state.mode));
     for (const [part, button] of this.partButtons) {
       button.hidden = !state.parts.includes(part);
       button.setAttribute('aria-pressed', String(!state.off.includes(part)));
     }
-    const isExposed = state.picture !== 'textures';
+    const isExposed = state.picture === 'lit' || state.picture === 'light';
     this.evSlider.value = String(state.ev);
     this.evSlider.disabled = !isExposed;
     this.evLabel.textContent = isExposed ? text.exposureValue(state.ev, state.exposure) : text.exposureUnused;
@@ -176,6 +203,10 @@ export class Panel {
   /** What is known of the air; null where there is none to draw. Shown with the next update. */
   setAirNote(note: string | null): void {
     this.airNote = note;
+  }
+
+  showPlaying(isPlaying: boolean): void {
+    this.playButton.textContent = isPlaying ? text.pause : text.play;
   }
 
   showSun(note: string): void {

@@ -220,7 +220,7 @@ describe.skipIf(!chromium)('the walkthrough of the synthetic bake', () => {
     const before = await page.evaluate(() => window.skybake!.stats().textures);
     const morning = await canvas(page, size.width, size.height);
     await page.locator('#instant').selectOption('1');
-    await page.waitForFunction(() => window.skybake!.view().instant === 1);
+    await page.waitForFunction(() => window.skybake!.view().moment === 1);
     const evening = await canvas(page, size.width, size.height);
     expect(differingShare(morning, evening)).toBeGreaterThan(0.3);
     for (let round = 0; round < 4; ++round) {
@@ -275,7 +275,7 @@ describe.skipIf(!chromium)('the walkthrough of the synthetic bake', () => {
     const got = await opened.page.evaluate(() => window.skybake!.view());
     expect(opened.problems).toEqual([]);
     await opened.page.close();
-    expect(got).toMatchObject({ mode: 'walk', picture: 'light', instant: 1 });
+    expect(got).toMatchObject({ mode: 'walk', picture: 'light', moment: 1 });
     for (let c = 0; c < 3; ++c) expect(got.position[c]).toBeCloseTo(sent.position[c]!, 1);
     await page.evaluate(async () => {
       await window.skybake!.setInstant(0);
@@ -351,7 +351,7 @@ describe.skipIf(!chromium || !bake)('the walkthrough of the bake that was given'
       expect(Math.hypot(after.position[0] - before.position[0], after.position[1] - before.position[1])).toBeGreaterThan(1);
       const count = await page.locator('#instant option').count();
       for (let i = 0; i < count; ++i) await page.evaluate((index) => window.skybake!.setInstant(index), i);
-      expect((await page.evaluate(() => window.skybake!.view())).instant).toBe(count - 1);
+      expect((await page.evaluate(() => window.skybake!.view())).moment).toBe(count - 1);
       expect(problems).toEqual([]);
     } finally {
       await browser.close();

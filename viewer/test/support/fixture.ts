@@ -4,6 +4,7 @@ import fs from 'node:fs';
 import path from 'node:path';
 import type { Manifest } from '../../src/core/generated/manifest';
 import { luminance, srgbEncode } from '../../src/core/units';
+import { encodeExr } from './exr';
 import { encodePng } from './png';
 
 type V3 = [number, number, number];
@@ -32,6 +33,9 @@ const boxes: Box[] = [
   { min: [4, 10, 0], max: [26, 24, 9], material: 1 },
   { min: [10, -30, 0], max: [22, -14, 24], material: 1 },
 ];
+
+/** Those that stand in the bake that is being written. */
+let standing = boxes;
 
 /** Thick haze, so that a hundred metres are seen to matter. */
 export function fixtureAir(instant: number): NonNullable<Instant['air']> {
@@ -97,7 +101,7 @@ function faces(): { page: number; face: Face }[] {
   const ground: Face = { corner: [-60, 60, 0], u: [120, 0, 0], v: [0, -120, 0], normal: [0, 0, 1], material: 0 };
   const [cx, cy, cz] = whiteCard.center;
   const card: Face = { corner: [cx - 2, cy, cz + 2], u: [4, 0, 0], v: [0, 0, -4], normal: [0, -1, 0], material: 3, light: { sky: whiteCard.skyKlx, sunCosine: whiteCard.sunCosine } };
-  return [{ page: 0, face: ground }, ...boxes.flatMap(boxFaces).map((face) => ({ page: 1, face })), { page: 1, face: card }];
+  return [{ page: 0, face: ground }, ...standing.flatMap(boxFaces).map((face) => ({ page: 1, face })), { page: 1, face: card }];
 }
 
 function hitsBox(from: V3, direction: V3, box: Box): boolean {
@@ -113,7 +117,7 @@ function hitsBox(from: V3, direction: V3, box: Box): boolean {
   return true;
 }
 
-const isFree = (from: V3, direction: V3) => !boxes.some((box) => hitsBox(from, direction, box));
+const isFree = (from: V3, direction: V3) => !standing.some((box) => hitsBox(from, direction, box));
 
 function sunDirection(azimuthDeg: number, elevationDeg: number): V3 {
   const [a, e] = [(azimuthDeg * Math.PI) / 180, (elevationDeg * Math.PI) / 180];
@@ -219,8 +223,15 @@ function panorama(instant: (typeof instants)[number], width: number, height: num
   return out;
 }
 
-/** Writes the bake into an empty folder. */
-export function writeFixture(folder: string): Manifest {
+/** Written down, not computed: of the ground, of roofs, of walls. */
+function skyViewOf(chart: Chart | undefined): number {
+  if (!chart) return 1;
+  return chart.page === 0 ? 0.8 : chart.face.normal[2] > 0.5 ? 1 : 0.4;
+}
+
+/** Writes the bake into an empty folder; before the third house was built, when asked for. */
+export function writeFixture(folder: string, time: 'before' | 'after' = 'after'): Manifest {
+  standing = time === 'before' ? boxes.slice(0, 2) : boxes;
   const { charts, pages } = pack();
   fs.mkdirSync(path.join(folder, 'light'), { recursive: true });
   const written = new Map<string, number>();
@@ -251,6 +262,32 @@ export function writeFixture(folder: string): Manifest {
       }
     }
   }
+  /** The chart and the texel of it at a place of a page; null outside of every chart. */
+  const texelAt = (p: number, column: number, row: number): { c: number; index: number } | null => {
+    const c = charts.findIndex((chart) => chart.page === p && column >= chart.x && column < chart.x + chart.columns && row >= chart.y && row < chart.y + chart.rows);
+    const chart = charts[c];
+    return chart ? { c, index: (row - chart.y) * chart.columns + column - chart.x } : null;
+  };
+  const rgb = (prefix: string, value: (p: number, column: number, row: number) => V3, p: number) =>
+    ['R', 'G', 'B'].map((name, channel) => ({ name: prefix + name, value: (column: number, row: number) => 1000 * value(p, column, row)[channel as 0 | 1 | 2] }));
+  const lampAt = (p: number, column: number, row: number): V3 => (charts[texelAt(p, column, row)?.c ?? -1]?.face.light ? whiteCard.lampKlx : [0, 0, 0]);
+  pages.forEach(({ width, height }, p) => write(`light/p${p}_base.exr`, encodeExr(width, height, [
+    { name: 'state', isInteger: true, value: (column, row) => (texelAt(p, column, row) ? 1 : 0) },
+    { name: 'chart', isInteger: true, value: (column, row) => texelAt(p, column, row)?.c ?? 0 },
+    { name: 'sky_view_factor', value: (column, row) => skyViewOf(charts[texelAt(p, column, row)?.c ?? -1]) },
+    ...rgb('lamps.', lampAt, p),
+  ])));
+  pages.forEach(({ width, height }, p) => write(`light/p${p}_svf.png`, encodePng({ width, height, channels: 1, pixels: Uint8Array.from({ length: width * height }, (_, i) =>
+    Math.round(255 * skyViewOf(charts[texelAt(p, i % width, Math.floor(i / width))?.c ?? -1]))) })));
+  write('objects.json', Buffer.from(JSON.stringify({
+    format: 'skybake-objects',
+    version: 1,
+    objects: [{ id: 'square', type: 'terrain' }, ...[1, 2, 3].map((n) => ({ id: `house-${n}`, type: 'building', attributes: { storeys: n + 2, name: `House “${n}”` } })), { id: 'card', type: 'generic' }],
+    surface_types: ['terrain', 'wall', 'roof'],
+    chart_objects: charts.map((_, c) => (c === 0 ? 0 : c === charts.length - 1 ? 4 : 1 + Math.floor((c - 1) / 5))),
+    chart_surfaces: charts.map(({ face }, c) => (c === 0 ? 0 : face.normal[2] > 0.5 ? 2 : 1)),
+  })));
+
   pages.forEach((page, p) => write(`light/p${p}_lamps.png`, encodePng({ ...page, channels: 3, pixels: lampPages[p]! })));
   write('light/lamp_scales.bin', Buffer.from(new Float32Array(charts.map(({ face }) => (face.light ? lampScale : 0))).buffer));
 
@@ -284,6 +321,15 @@ export function writeFixture(folder: string): Manifest {
     write(`light/i${i}_scales.bin`, Buffer.from(scales.buffer));
     write(`light/i${i}_sky.bin`, panorama(instant, 512, 128));
     write(`light/i${i}_air.bin`, airlight(instant));
+    const lightAt = (p: number, column: number, row: number) => {
+      const at = texelAt(p, column, row);
+      return at ? lights[at.c]![at.index]![i]! : null;
+    };
+    const sunAt = (p: number, column: number, row: number): V3 => instant.beam.map((e) => e * (lightAt(p, column, row)?.sunCosine ?? 0)) as V3;
+    const skyAt = (p: number, column: number, row: number): V3 => lightAt(p, column, row)?.sky ?? [0, 0, 0];
+    pages.forEach(({ width, height }, p) => write(`light/i${i}_p${p}.exr`, encodeExr(width, height, [
+      ...rgb('', (...at) => add(add(sunAt(...at), skyAt(...at)), lampAt(...at)), p), ...rgb('sun.', sunAt, p), ...rgb('sky.', skyAt, p),
+    ])));
     pages.forEach((page, p) => {
       write(`light/i${i}_p${p}_sky.png`, encodePng({ ...page, channels: 3, pixels: sky[p]! }));
       write(`light/i${i}_p${p}_sun.png`, encodePng({ ...page, channels: 1, pixels: sun[p]! }));
@@ -312,9 +358,9 @@ export function writeFixture(folder: string): Manifest {
     format: 'skybake-bake',
     version: 1,
     generator: { name: 'skybake viewer fixture', version: '1' },
-    title: 'Three houses',
+    title: time === 'before' ? 'Two houses' : 'Three houses',
     crs: '',
-    site: null,
+    site: { latitude_deg: 47, longitude_deg: 15.4 },
     convergence_deg: 0,
     origin: [0, 0, 0],
     bounds: { min: [-60, -60, 0], max: [60, 60, 24] },
@@ -329,6 +375,7 @@ export function writeFixture(folder: string): Manifest {
     units: { illuminance: 'lx', luminance: 'cd/m2', length: 'm', angle: 'degree', color: 'linear Rec. 709, photometric: 0.2126 R + 0.7152 G + 0.0722 B is the illuminance or luminance' },
     pages: pages.map(({ width, height }, p) => ({ width, height, base: `light/p${p}_base.exr`, svf: `light/p${p}_svf.png`, lamps: `light/p${p}_lamps.png` })),
     charts: charts.length,
+    objects: { uri: 'objects.json' },
     lamp_scales: { uri: 'light/lamp_scales.bin' },
     instants: manifestInstants,
     views: [

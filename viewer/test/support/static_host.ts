@@ -11,13 +11,22 @@ export interface Host {
   close(): Promise<void>;
 }
 
-/** @param answer may replace a file's bytes, or refuse it with null: for tests of what goes wrong */
-export function serve(roots: readonly string[], answer: (name: string, bytes: Buffer | null) => Buffer | null = (_, bytes) => bytes): Promise<Host> {
+/**
+ * @param answer may replace a file's bytes, or refuse it with null: for tests of what goes wrong
+ * @param knowsRanges false for a host that always sends whole files
+ */
+export function serve(roots: readonly string[], answer: (name: string, bytes: Buffer | null) => Buffer | null = (_, bytes) => bytes, knowsRanges = true): Promise<Host> {
   const server = http.createServer((request, response) => {
     const name = decodeURIComponent(new URL(request.url ?? '/', 'http://host').pathname).replace(/^\/$/, '/index.html').slice(1);
     const found = roots.map((root) => path.join(root, name)).find((file) => fs.existsSync(file));
     const bytes = answer(name, found && !name.includes('..') ? fs.readFileSync(found) : null);
     if (!bytes) return void response.writeHead(404).end('not found');
+    const range = /^bytes=(\d+)-(\d+)$/.exec(request.headers.range ?? '');
+    if (range && knowsRanges) {
+      const [first, last] = [Number(range[1]), Math.min(Number(range[2]), bytes.length - 1)];
+      response.writeHead(206, { 'content-range': `bytes ${first}-${last}/${bytes.length}`, 'cache-control': 'no-store' });
+      return void response.end(bytes.subarray(first, last + 1));
+    }
     response.writeHead(200, { 'content-type': types[path.extname(name)] ?? 'application/octet-stream', 'cache-control': 'no-store' }).end(bytes);
   });
   return new Promise((resolve) => {

@@ -2,7 +2,7 @@ import { expect, test } from 'vitest';
 import { clampEv, exposureFactor } from '../../src/core/exposure';
 import { formatViewState, parseViewState, type ViewState } from '../../src/core/view_state';
 
-const state: ViewState = { mode: 'walk', position: [1.5, -2.25, 1.7], target: [3, 4, -0.5], picture: 'light', instant: 2, ev: -0.5, air: false, off: ['sun', 'lamps'] };
+const state: ViewState = { mode: 'walk', position: [1.5, -2.25, 1.7], target: [3, 4, -0.5], picture: 'light', moment: 2.3, ev: -0.5, air: false, off: ['sun', 'lamps'], scale: { low: 10, high: 5000, isLogarithmic: true }, comparison: { shown: 'swipe', divider: 0.25 } };
 
 test('a link gives back what was sent', () => expect(parseViewState(formatViewState(state))).toEqual(state));
 
@@ -16,7 +16,13 @@ test.each([
   ['#v=1&p=1,2&t=0,0,0', {}],
   ['#v=1&p=1,2,3', {}],
   ['#v=1&p=1,two,3&t=0,0,0', {}],
-  ['#v=1&m=orbit&i=3', { mode: 'orbit', instant: 3 }],
+  ['#v=1&m=orbit&i=3', { mode: 'orbit', moment: 3 }],
+  ['#v=1&i=3&f=-0.40', { moment: 2.6 }],
+  ['#v=1&i=3&f=7', { moment: 3 }],
+  ['#v=1&fc=5,1,lin', {}],
+  ['#v=1&c=both,0.5', {}],
+  ['#v=1&c=a,1.5', {}],
+  ['#v=1&fc=0,9,log', {}],
   ['#v=1&off=moon,lamps', { off: ['lamps'] }],
 ])('of %j only what makes sense is taken', (hash, expected) => expect(parseViewState(hash)).toEqual(expected));
 
