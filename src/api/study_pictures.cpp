@@ -9,10 +9,12 @@
 namespace skybake {
 namespace {
 
-constexpr int kMapPixels = 1600;              // along the longer side: 220 dots an inch on a page
-constexpr double kSurroundingsM = 200.0;      // about the plan
-constexpr double kMostShadowNodes = 1.5e6;    // of the lattice of shadow outlines
-constexpr std::size_t kMostChosenPoints = 6;  // that all get a sky of their own
+constexpr int kMapPixels = 1600;          // along the longer side: 220 dots an inch on a page
+constexpr double kSurroundingsM = 200.0;  // about the plan
+constexpr double kShadowMarginM = 15.0;
+constexpr double kLowSunRad = 10.0 * kPi / 180.0;  // below, shadows leave any sheet
+constexpr double kMostShadowNodes = 1.5e6;         // of the lattice of shadow outlines
+constexpr std::size_t kMostChosenPoints = 6;       // that all get a sky of their own
 
 Box2d box_of(const Scene& scene) {
     return {Vec2d(scene.origin) + Vec2d(Vec3d(scene.bounds.lo)), Vec2d(scene.origin) + Vec2d(Vec3d(scene.bounds.hi))};
@@ -168,6 +170,20 @@ void add_shadows(StudyPictures& pictures, const Rule& rule, const PreparedStudy&
     }
 }
 
+/// The plan and its shadows while the sun is not low; without a plan all receivers.
+MapGround shadow_map(const StudyPictures& pictures, const PreparedStudy& prepared, const Study& study) {
+    if (!prepared.planned) return pictures.maps.front();
+    Box2d box = box_of(prepared.planned->scene);
+    for (const HourShadow& shadow : pictures.shadows) {
+        const bool is_low = study.days[shadow.day].elevation_rad(shadow.second) < kLowSunRad;
+        if (shadow.kind != ShadowKind::plan || is_low) continue;
+        for (const std::vector<Vec2d>& ring : shadow.outline.rings) {
+            for (const Vec2d& p : ring) box.extend(p);
+        }
+    }
+    return map_ground(prepared, grown(box, kShadowMarginM));
+}
+
 }  // namespace
 
 StudyPictures study_pictures(const Rule& rule, const PreparedStudy& prepared, const Study& study, Progress& progress) {
@@ -176,6 +192,7 @@ StudyPictures study_pictures(const Rule& rule, const PreparedStudy& prepared, co
     pictures.plates = chosen_samples(rule, prepared, study);
     fill_plates(pictures.plates, rule, prepared, study);
     add_shadows(pictures, rule, prepared, study, progress);
+    if (!pictures.shadows.empty()) pictures.shadow_map = shadow_map(pictures, prepared, study);
     return pictures;
 }
 

@@ -48,6 +48,7 @@ struct HourShadow {
 
 struct StudyPictures {
     std::vector<MapGround> maps;  // all receivers; with a plan also its surroundings
+    MapGround shadow_map;         // what the shadows reach
     std::vector<SamplePlate> plates;
     std::vector<HourShadow> shadows;  // by day, time and kind
     double shadow_spacing_m = 1.0;

@@ -13,6 +13,7 @@ namespace skybake::io {
 namespace {
 
 constexpr std::size_t kMostMaps = 8;
+constexpr std::size_t kMostDifferences = 4;
 constexpr std::size_t kMostInstants = 6;  // of maps of one day's shadows
 
 void figure(Html& html, const std::string& svg, const std::string& caption) {
@@ -29,7 +30,11 @@ std::vector<double> thresholds_of(const Rule& rule, Metric metric) {
     return thresholds;
 }
 
-std::string stacked_note(bool shows_worst_low, const Words& words) {
+std::string stacked_note(const StudyReport& report, bool shows_worst_low, const Words& words) {
+    const std::vector<Receiver>& receivers = report.study.receivers.receivers;
+    const bool has_facades = std::any_of(receivers.begin(), receivers.end(),
+                                         [](const Receiver& r) { return r.kind == ReceiverKind::facade; });
+    if (!has_facades) return "";
     return shows_worst_low
                ? words(" Façades: a band before the wall, with the least value of all cells above each other.",
                        " Fassaden: ein Band vor der Wand, mit dem kleinsten Wert aller Zellen übereinander.")
@@ -37,7 +42,8 @@ std::string stacked_note(bool shows_worst_low, const Words& words) {
                        " Fassaden: ein Band vor der Wand, mit dem größten Wert aller Zellen übereinander.");
 }
 
-void add_value_map(Html& html, const StudyReport& report, const Words& words, const MapGround& ground, std::size_t c) {
+void add_value_map(Html& html, const StudyReport& report, const Words& words, const MapGround& ground, std::size_t c,
+                   double lettering) {
     const Column& column = report.study.columns[c];
     const auto [low, high] = std::minmax_element(column.values.begin(), column.values.end());
     const bool is_low = prefers_more(column.metric);
@@ -49,16 +55,17 @@ void add_value_map(Html& html, const StudyReport& report, const Words& words, co
         is_low,
         words.unit(column.metric),
         decimals_of(column.metric),
-        report.facts.settings.convergence_rad};
+        report.facts.settings.convergence_rad,
+        lettering};
     figure(html, study_map_svg(map, words),
            words.column(report.study, column) + "." +
                words(" Thresholds of the rule are marked in the legend.",
                      " Schwellen der Regel sind in der Legende markiert.") +
-               stacked_note(is_low, words));
+               stacked_note(report, is_low, words));
 }
 
 void add_difference_map(Html& html, const StudyReport& report, const Words& words, const MapGround& ground,
-                        std::size_t c, std::size_t former) {
+                        std::size_t c, std::size_t former, double lettering) {
     const Column &after = report.study.columns[c], &before = report.study.columns[former];
     std::vector<float> change(after.values.size());
     double most = 0.0;
@@ -74,12 +81,14 @@ void add_difference_map(Html& html, const StudyReport& report, const Words& word
                        prefers_more(after.metric),
                        words.unit(after.metric),
                        decimals_of(after.metric),
-                       report.facts.settings.convergence_rad};
+                       report.facts.settings.convergence_rad,
+                       lettering};
     figure(html, study_map_svg(map, words),
            words.column(report.study, after) +
-               words(": after less before; brown has less, blue has more. The plan is violet.",
-                     ": nachher weniger vorher; Braun hat weniger, Blau mehr. Das Vorhaben ist violett.") +
-               stacked_note(map.shows_worst_low, words));
+               words(": after less before; brown has less, blue has more, white no change. The plan is violet.",
+                     ": nachher weniger vorher; Braun hat weniger, Blau mehr, Weiß bleibt gleich. Das Vorhaben ist "
+                     "violett.") +
+               stacked_note(report, map.shows_worst_low, words));
 }
 
 std::string place_of(const Receiver& receiver, const Sample& sample, const Words& words) {
@@ -94,25 +103,26 @@ void add_maps(Html& html, const StudyReport& report, const Words& words) {
     if (report.pictures.maps.empty()) return;
     const std::vector<std::size_t> columns = leading_columns(report.rule, report.study);
     html.element("h2", words("Maps", "Karten"), {{"class", "cut"}});
+    // Several days side by side, so that they can be compared.
+    const bool is_paired = columns.size() > 2;
+    const double lettering = is_paired ? 1.7 : 1.0;
+    html.open("div", {{"class", is_paired ? "pair" : "single"}});
+    for (std::size_t i = 0; i < std::min(columns.size(), kMostMaps); ++i)
+        add_value_map(html, report, words, report.pictures.maps.front(), columns[i], lettering);
     std::size_t drawn = 0;
     for (const std::size_t c : columns) {
-        if (drawn == kMostMaps) break;
-        add_value_map(html, report, words, report.pictures.maps.front(), c);
-        ++drawn;
-    }
-    for (const std::size_t c : columns) {
         const std::optional<std::size_t> former = former_column(report.study, c);
-        if (!former || drawn >= kMostMaps + 4) continue;
-        add_difference_map(html, report, words, report.pictures.maps.back(), c, *former);
-        ++drawn;
+        if (former && drawn++ < kMostDifferences)
+            add_difference_map(html, report, words, report.pictures.maps.back(), c, *former, lettering);
     }
+    html.close("div");
 }
 
 void add_shadows(Html& html, const StudyReport& report, const Words& words) {
     const StudyPictures& pictures = report.pictures;
-    if (pictures.shadows.empty() || pictures.maps.empty()) return;
+    if (pictures.shadows.empty()) return;
     const double convergence = report.facts.settings.convergence_rad;
-    const MapGround& near = pictures.maps.back();
+    const MapGround& near = pictures.shadow_map;
     html.element("h2", words("Shadows by the hour", "Schatten stundenweise"), {{"class", "cut"}});
     html.element("p", fmt::format(fmt::runtime(words("Outlines on the ground, on a lattice of {} m: edges are right to "
                                                      "1 cm where they cross it, corners are cut.",

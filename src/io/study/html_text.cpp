@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "io/study/html_parts.h"
+#include "io/study/sky_plate.h"
 
 namespace skybake::io {
 namespace {
@@ -23,7 +24,7 @@ void list(Html& html, const std::vector<std::string>& entries, std::string_view 
 std::string days_text(const StudyReport& report, const Words& words) {
     std::vector<std::string> days;
     for (const SunDay& day : report.study.days) days.push_back(words.day(day.day()));
-    return days.empty() ? words("none", "keine") : fmt::format("{}", fmt::join(days, ", "));
+    return fmt::format("{}", fmt::join(days, ", "));
 }
 
 std::string first_of(const std::vector<std::string>& ids, const Words& words) {
@@ -85,11 +86,13 @@ void add_task(Html& html, const StudyReport& report, const Words& words) {
     html.element("h2", words("Task and result", "Aufgabe und Ergebnis"));
     std::vector<std::string> kinds;
     for (const ReceiverKind kind : facts.receivers.kinds) kinds.push_back(words.kind(kind));
-    list(html, {words("Asked of: ", "Gefragt an: ") + fmt::format("{}", fmt::join(kinds, ", ")) +
-                    fmt::format(" ({} {}, {} {})", words.count(report.study.receivers.samples.size()),
-                                words("cells", "Zellen"), words.count(report.study.receivers.receivers.size()),
-                                words("receivers", "Empfänger")),
-                words("Days: ", "Tage: ") + days_text(report, words) + fmt::format(" {}", facts.settings.year)});
+    std::vector<std::string> asked{
+        words("Asked of: ", "Gefragt an: ") + fmt::format("{}", fmt::join(kinds, ", ")) +
+        fmt::format(" ({} {}, {} {})", words.count(report.study.receivers.samples.size()), words("cells", "Zellen"),
+                    words.count(report.study.receivers.receivers.size()), words("receivers", "Empfänger"))};
+    if (!report.study.days.empty())
+        asked.push_back(words("Days: ", "Tage: ") + days_text(report, words) + fmt::format(" {}", facts.settings.year));
+    list(html, asked);
     if (!facts.plan.empty()) html.element("p", words("The plan: ", "Das Vorhaben: ") + first_of(facts.plan, words));
     if (!facts.removed.empty()) html.element("p", words("Taken away: ", "Entfernt: ") + first_of(facts.removed, words));
     if (facts.has_before)
@@ -199,17 +202,17 @@ void add_method(Html& html, const StudyReport& report, const Words& words) {
                                   "Die Sonne zählt ab dieser geometrischen Höhe: ") +
                             words.number(report.rule.min_elevation_deg, 1) + "°");
         std::vector<std::vector<Html::Cell>> rows;
+        const std::optional<std::string>& zone = facts.settings.timezone;
+        const std::string unit = fmt::format(" [{}]", zone.value_or("UTC"));
         for (const SunDay& day : study.days) {
-            rows.push_back(
-                {{words.day(day.day()), "words"},
-                 {to_iso8601({{day.begin().milliseconds / 1000 * 1000}, 0}).substr(11, 8), "number"},
-                 {to_iso8601({{day.time_of(day.length_s()).milliseconds / 1000 * 1000}, 0}).substr(11, 8), "number"},
-                 {words.number(day.hours(), 2), "number"}});
+            rows.push_back({{words.day(day.day()), "words"},
+                            {clock_of(day.begin(), zone), "number"},
+                            {clock_of(day.time_of(day.length_s()), zone), "number"},
+                            {words.number(day.hours(), 2), "number"}});
         }
-        html.table(
-            {words("Day", "Tag"), words("Looked at from [UTC]", "Betrachtet ab [UTC]"), words("to [UTC]", "bis [UTC]"),
-             words("Hours in which the sun counts", "Stunden, in denen die Sonne zählt")},
-            rows);
+        html.table({words("Day", "Tag"), words("Looked at from", "Betrachtet ab") + unit, words("to", "bis") + unit,
+                    words("Hours in which the sun counts", "Stunden, in denen die Sonne zählt")},
+                   rows);
     }
     if (computes(study, {Metric::sky_view_factor, Metric::sky_component_pct, Metric::irradiation_kwh_m2}))
         notes.push_back(fmt::format(fmt::runtime(words("Sky by {} directions for each orientation, weighed by cosine "

@@ -72,7 +72,7 @@ std::string shadow_fan_svg(const StudyPictures& pictures, const MapGround& map, 
     legend +=
         fmt::format("<text x=\"{:.1f}\" y=\"44\" font-size=\"15\">{}</text>",
                     34.0 + width * static_cast<double>(hours.size()), clock_note(pictures.has_solar_clock, words));
-    return framed_map_svg(map, ground_pixels(map), tints + strokes, legend, 56.0, convergence_rad);
+    return framed_map_svg(map, ground_pixels(map), tints + strokes, legend, 56.0, convergence_rad, 1.0);
 }
 
 std::string shadow_instant_svg(const HourShadow& shadow, const MapGround& map, const Words& words,
@@ -84,7 +84,7 @@ std::string shadow_instant_svg(const HourShadow& shadow, const MapGround& map, c
         "<rect x=\"30\" y=\"12\" width=\"40\" height=\"22\" fill=\"#223355\" fill-opacity=\"0.45\" stroke=\"#444\"/>"
         "<text x=\"80\" y=\"30\">{}</text>",
         xml_text(words("shadow on the ground", "Schatten auf dem Boden")));
-    return framed_map_svg(map, ground_pixels(map), inside, legend, 44.0, convergence_rad);
+    return framed_map_svg(map, ground_pixels(map), inside, legend, 44.0, convergence_rad, 2.0);
 }
 
 }  // namespace skybake::io

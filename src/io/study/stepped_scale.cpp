@@ -79,7 +79,7 @@ SteppedScale stepped_scale(double least, double greatest, const std::vector<doub
 SteppedScale difference_scale(double most, double least_change) {
     constexpr Rgb8 kLoss{127, 59, 8}, kNone{247, 247, 247}, kGain{5, 48, 97};
     most = std::max(most, 2.0 * least_change);
-    const double step = round_step(most / 4.0);
+    const double step = round_step(most / 5.0);
     const int steps = std::max(1, static_cast<int>(std::ceil(most / step - 1e-9)));
     SteppedScale scale;
     for (int k = -steps; k <= steps; ++k) {

@@ -115,7 +115,7 @@ std::string text_svg(double x, double y, const char* anchor, bool is_bold, const
 std::string legend_svg(const StudyMap& map, const Words& words) {
     std::string out;
     const std::size_t classes = map.scale.colours.size();
-    const double width = std::min(90.0, 860.0 / static_cast<double>(classes));
+    const double width = std::min(90.0, (860.0 / map.lettering - 40.0) / static_cast<double>(classes));
     for (std::size_t c = 0; c < classes; ++c) {
         out += fmt::format("<rect x=\"{:.1f}\" y=\"12\" width=\"{:.1f}\" height=\"22\" fill=\"{}\" stroke=\"#444\"/>",
                            30.0 + width * static_cast<double>(c), width, hex_of(map.scale.colours[c]));
@@ -132,7 +132,15 @@ std::string legend_svg(const StudyMap& map, const Words& words) {
         const double x = 30.0 + width * static_cast<double>(e);
         const bool is_marked = map.scale.is_marked[e];
         if (is_marked) out += fmt::format("<path d=\"M{0:.1f} 6V40\" stroke=\"#000\" stroke-width=\"3\"/>", x);
-        out += text_svg(x, 54.0, "middle", is_marked, text_of(map.scale.edges[e]));
+        // The class about no change has one label in its middle.
+        const bool begins_none =
+            e + 1 < map.scale.edges.size() && map.scale.edges[e] < 0.0 && map.scale.edges[e] == -map.scale.edges[e + 1];
+        const bool ends_none = e > 0 && map.scale.edges[e] > 0.0 && map.scale.edges[e] == -map.scale.edges[e - 1];
+        if (ends_none) continue;
+        if (begins_none)
+            out += text_svg(x + 0.5 * width, 54.0, "middle", false, "0");
+        else
+            out += text_svg(x, 54.0, "middle", is_marked, text_of(map.scale.edges[e]));
     }
     out += text_svg(30.0 + width * static_cast<double>(classes) + 18.0, 30.0, "start", false, map.unit);
     return out;
@@ -172,7 +180,7 @@ std::vector<Rgb8> ground_pixels(const MapGround& ground) {
 }
 
 std::string framed_map_svg(const MapGround& ground, const std::vector<Rgb8>& pixels, const std::string& inside,
-                           const std::string& legend, double legend_height, double convergence_rad) {
+                           const std::string& legend, double legend_height, double convergence_rad, double lettering) {
     const PlanView& view = ground.view;
     const double scale = 1000.0 / std::max(view.width, view.height);  // units a pixel
     const double width = scale * view.width, height = scale * view.height;
@@ -182,7 +190,7 @@ std::string framed_map_svg(const MapGround& ground, const std::vector<Rgb8>& pix
     std::string out = fmt::format(
         "<svg class=\"map\" xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 1000 {:.1f}\" font-size=\"17\" "
         "role=\"img\">",
-        height + 12.0 + legend_height + 50.0);
+        height + 12.0 + lettering * (legend_height + 40.0));
     out += fmt::format(
         "<image x=\"0\" y=\"0\" width=\"{:.1f}\" height=\"{:.1f}\" preserveAspectRatio=\"none\" href=\"{}\"/>", width,
         height, data_uri("image/png", encode_png(image)));
@@ -196,19 +204,21 @@ std::string framed_map_svg(const MapGround& ground, const std::vector<Rgb8>& pix
     // True north lies `convergence` west of the grid's where that is positive: azimuth of the grid = true −
     // convergence.
     out += fmt::format(
-        "<g transform=\"translate({:.1f} 52) rotate({:.3f})\"><circle r=\"40\" fill=\"#fff\" fill-opacity=\"0.8\"/>"
+        "<g transform=\"translate({:.1f} {:.1f}) scale({:.2f}) rotate({:.3f})\"><circle r=\"40\" fill=\"#fff\" "
+        "fill-opacity=\"0.8\"/>"
         "<path d=\"M0 -26L10 18L0 9L-10 18Z\" fill=\"#222\"/>"
         "<text y=\"-27\" text-anchor=\"middle\" font-weight=\"bold\" font-size=\"15\">N</text></g>",
-        width - 52.0, -convergence_rad * 180.0 / kPi);
+        width - 52.0 * lettering, 52.0 * lettering, lettering, -convergence_rad * 180.0 / kPi);
     const double length_m = round_length(0.3 * 1000.0 / metre);
+    const double bar = length_m * metre / lettering;
     const double top = height + 14.0;
-    out += fmt::format("<g transform=\"translate(0 {:.1f})\">", top);
+    out += fmt::format("<g transform=\"translate(0 {:.1f}) scale({:.2f})\">", top, lettering);
     for (int part = 0; part < 4; ++part) {
         out += fmt::format("<rect x=\"{:.1f}\" y=\"6\" width=\"{:.1f}\" height=\"8\" fill=\"{}\" stroke=\"#222\"/>",
-                           30.0 + 0.25 * part * length_m * metre, 0.25 * length_m * metre, part % 2 ? "#fff" : "#222");
+                           30.0 + 0.25 * part * bar, 0.25 * bar, part % 2 ? "#fff" : "#222");
     }
     out += text_svg(30.0, 32.0, "middle", false, "0");
-    out += text_svg(30.0 + length_m * metre, 32.0, "middle", false, fmt::format("{:g} m", length_m));
+    out += text_svg(30.0 + bar, 32.0, "middle", false, fmt::format("{:g} m", length_m));
     out += fmt::format("<g transform=\"translate(0 40)\">{}</g></g></svg>", legend);
     return out;
 }
@@ -216,7 +226,7 @@ std::string framed_map_svg(const MapGround& ground, const std::vector<Rgb8>& pix
 std::string study_map_svg(const StudyMap& map, const Words& words) {
     std::vector<Rgb8> pixels = ground_pixels(*map.ground);
     Painter(map, pixels).paint();
-    return framed_map_svg(*map.ground, pixels, "", legend_svg(map, words), 60.0, map.convergence_rad);
+    return framed_map_svg(*map.ground, pixels, "", legend_svg(map, words), 60.0, map.convergence_rad, map.lettering);
 }
 
 }  // namespace skybake::io

@@ -19,6 +19,7 @@ struct StudyMap {
     std::string unit;
     int decimals = 2;
     double convergence_rad = 0.0;  // from grid to true north
+    double lettering = 1.0;        // scale of legend, arrow and bar
 };
 
 /// Pixels of the map's ground: buildings grey with darker rims, what is planned violet, all else white.
@@ -31,6 +32,6 @@ std::string study_map_svg(const StudyMap& map, const Words& words);
 /// The frame of any map: `inside` is SVG in metres east and south of the view's north-west corner; `legend` stands
 /// below, `legend_height` units high, the map being 1,000 wide or, where it is higher than wide, 1,000 high.
 std::string framed_map_svg(const MapGround& ground, const std::vector<Rgb8>& pixels, const std::string& inside,
-                           const std::string& legend, double legend_height, double convergence_rad);
+                           const std::string& legend, double legend_height, double convergence_rad, double lettering);
 
 }  // namespace skybake::io
