@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/threads.h"
 #include "io/file/replace_file.h"
+#include "io/gdal/write_maps.h"
 #include "io/manifest/sha256.h"
 #include "io/rules/read_rule.h"
 #include "io/study/study_html.h"
@@ -38,6 +39,9 @@ void write_tables(const StudyOptions& options, const Rule& rule, StudyResult& re
         names.push_back("cells.csv");
     }
     io::write_ground_tiff(folder / "ground.tif", study, result.facts.crs);
+    if (!result.pictures->shadows.empty())
+        io::write_shadows_gpkg(folder / "shadows.gpkg", *result.pictures, study, result.facts.settings.convergence_rad,
+                               result.facts.crs);
     if (result.facts.has_before) {
         io::write_new_shadow_csv(folder / "new_shadow.csv", study);
         names.push_back("new_shadow.csv");

@@ -8,12 +8,15 @@
 
 #include "base/error.h"
 #include "base/nearest_word.h"
-#include "io/geodata/geodata.h"
+#include "io/gdal/read_areas.h"
+#include "io/gdal/write_maps.h"
 
 namespace skybake {
 namespace {
 
 using Ids = std::unordered_set<std::string>;
+
+constexpr std::int64_t kMostRasterPixels = 100'000'000;  // of ground.tif: 400 MB a band
 
 Ids ids_of(const CityModel& city) {
     Ids ids;
@@ -101,6 +104,13 @@ void check_receivers(const ReceiverSet& set, const ReceiverOptions& options) {
                         "or --polygons, or ground with --ground draped.",
                         fmt::join(kinds, ", "),
                         set.enclosed > 0 ? fmt::format(" ({} cells lie inside bodies)", set.enclosed) : ""));
+    }
+    const std::optional<io::RasterExtent> raster = io::raster_extent(set);
+    if (raster && raster->width * raster->height > kMostRasterPixels) {
+        throw InputError(
+            fmt::format("a raster of the ground cells would have {} × {} pixels: the areas lie far apart. Study them "
+                        "one by one, or use a larger --cell.",
+                        raster->width, raster->height));
     }
     for (const Receiver& receiver : set.receivers) {
         if (receiver.sample_begin == receiver.sample_end) {

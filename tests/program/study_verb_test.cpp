@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "json_schema.h"
 #include "run_program.h"
 
 namespace skybake {
@@ -186,6 +187,21 @@ TEST_F(StudyVerb, VerifiesItsReport) {
     EXPECT_THAT(refusal({"--verify", report}), HasSubstr("is damaged"));
 }
 
+TEST_F(StudyVerb, ReportsKeepTheirSchema) {
+    const nlohmann::json schema = nlohmann::json::parse(text_of(SKYBAKE_SCHEMA_FOLDER "/study.schema.json"));
+    json_of({place.str("city.json"), "--rule", "nyc-ceqr", "--add", place.str("tower.json"), "--polygons",
+             place.str("park.geojson"), "-o", place.str("a")});
+    json_of({place.str("city.json"), "--rule", "bre209-apsh", "--cell", "3", "--remove", "house", "--add",
+             place.str("tower.json"), "--receivers", "ground", "--timezone", "Europe/Vienna", "--step", "30min", "-o",
+             place.str("b"), "--no-cells"});
+    for (const char* folder : {"a", "b"}) {
+        const nlohmann::json report = nlohmann::json::parse(text_of(place / folder / "report.json"));
+        check_schema(schema, schema, report, folder);
+    }
+    EXPECT_TRUE(std::filesystem::exists(place / "a" / "shadows.gpkg"));
+    EXPECT_FALSE(std::filesystem::exists(place / "b" / "shadows.gpkg"));  // the rule has no days
+}
+
 TEST_F(StudyVerb, MonthsAreAPeriod) {
     const auto sunshine = [&](const std::string& months) {
         return json_of(
@@ -212,6 +228,17 @@ TEST_F(StudyVerb, RefusesWhatItCannotDo) {
     EXPECT_THAT(refusal({place.str("city.json"), "--remove", "houze"}), HasSubstr("did you mean 'house'"));
     EXPECT_THAT(refusal({place.str("city.json"), "--step", "soon"}), HasSubstr("--step 'soon'"));
     EXPECT_THAT(refusal({}), HasSubstr("needs a CITY"));
+    // Without ground between them a city and a hamlet 30 km apart: a raster of both at 1 m would hold 9e8 cells.
+    std::ofstream(place / "hamlet.json") << box_city({{"hut", {29000, 29000, 0, 29010, 29010, 5}}}, false);
+    nlohmann::json ground = nlohmann::json::parse(text_of(place / "hamlet.json"));
+    ground["vertices"].insert(ground["vertices"].end(),
+                              {{28990000, 28990000, 0}, {29020000, 28990000, 0}, {29020000, 29020000, 0}});
+    ground["CityObjects"]["meadow"] = {
+        {"type", "TINRelief"},
+        {"geometry", {{{"type", "CompositeSurface"}, {"lod", "1"}, {"boundaries", {{{8, 9, 10}}}}}}}};
+    std::ofstream(place / "hamlet.json") << ground;
+    EXPECT_THAT(refusal({place.str("city.json"), place.str("hamlet.json"), "--receivers", "ground"}),
+                HasSubstr("the areas lie far apart"));
 }
 
 TEST_F(StudyVerb, ListsItsRules) {

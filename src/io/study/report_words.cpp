@@ -23,9 +23,13 @@ std::string Words::change(double value, int decimals) const {
 }
 
 std::string Words::count(std::uint64_t value) const {
-    std::string digits = std::to_string(value);
-    for (std::size_t end = digits.size(); end > 3; end -= 3) digits.insert(end - 3, "\u202f");
-    return digits;
+    const std::string digits = std::to_string(value);
+    std::string text;
+    for (std::size_t i = 0; i < digits.size(); ++i) {
+        if (i > 0 && (digits.size() - i) % 3 == 0) text += "\u202f";  // narrow and without a break
+        text += digits[i];
+    }
+    return text;
 }
 
 std::string Words::metric(Metric metric) const {

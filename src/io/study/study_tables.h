@@ -23,7 +23,7 @@ void write_groups_csv(const std::filesystem::path& path, const Rule& rule, const
 /// new_shadow.csv: a line a receiver, day and episode: enter and exit (UTC), minutes, and the totals of the receiver.
 void write_new_shadow_csv(const std::filesystem::path& path, const Study& study);
 
-/// cells.gpkg and ground.tif with all columns and verdicts (geodata/geodata.h).
+/// cells.gpkg and ground.tif with all columns and verdicts (gdal/write_maps.h).
 void write_cells_gpkg(const std::filesystem::path& path, const Rule& rule, const Study& study, const std::string& crs);
 bool write_ground_tiff(const std::filesystem::path& path, const Study& study, const std::string& crs);
 
