@@ -34,7 +34,7 @@ struct Cloud {
 };
 using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Cloud>, Cloud, 3, std::uint32_t>;
 
-/// The same choice of photons as PhotonMap::find_nearest with the circle's metric and no limits.
+/// The same choice of photons as PhotonSearch::nearest with the circle's metric and no limits.
 class SameSurface {
   public:
     SameSurface(const std::vector<Photon>& photons, const ReceiverPoint& point)
@@ -111,11 +111,11 @@ int run(int argc, char** argv) {
         const PhotonMap map(std::move(copy));
         const double ours_build = (processor_seconds() - begin);
         std::size_t agreeing = 0;
-        std::vector<NearPhoton> found;
+        PhotonSearch search(map);
         begin = processor_seconds();
         for (std::size_t i = 0; i < points.size(); ++i) {
-            map.find_nearest(points[i].position, points[i].normal, SurfaceMetric::circle, kNearest, kMaxDistance,
-                             no_limits(), found);
+            const std::span<const NearPhoton> found = search.nearest(
+                {points[i].position, points[i].normal, SurfaceMetric::circle, kNearest, kMaxDistance, no_limits()});
             agreeing += std::abs((found.empty() ? 0.0f : found.front().distance) - theirs[i]) < 1e-5f;
         }
         const double ours_us = 1e6 * (processor_seconds() - begin) / static_cast<double>(points.size());

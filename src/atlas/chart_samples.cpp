@@ -125,9 +125,13 @@ ChartSamples sample_chart(const Scene& scene, const Chart& chart) {
     return samples;
 }
 
-bool contains(const ChartSamples& samples, const Chart& chart, std::uint32_t triangle, const Vec2f& point) {
+std::optional<Vec3f> point_on_triangle(const Scene& scene, const Chart& chart, const ChartSamples& samples,
+                                       std::uint32_t triangle, const Vec2f& point) {
     const auto place = std::lower_bound(chart.triangles.begin(), chart.triangles.end(), triangle);
-    return contains(samples.triangle_texels[static_cast<std::size_t>(place - chart.triangles.begin())], point);
+    const std::array<Vec2f, 3>& texels =
+        samples.triangle_texels[static_cast<std::size_t>(place - chart.triangles.begin())];
+    if (!contains(texels, point)) return std::nullopt;
+    return lift(chart, scene.triangles[triangle], texels, point);
 }
 
 }  // namespace skybake

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "atlas/atlas.h"
@@ -36,7 +37,9 @@ Vec3f shading_normal(const Scene& scene, const Chart& chart, std::uint32_t trian
 /// the other side of a wall). A chart has at least one covered texel.
 ChartSamples sample_chart(const Scene& scene, const Chart& chart);
 
-/// True when the point, in texels of the chart, lies in the scene triangle, which must be one of the chart's.
-bool contains(const ChartSamples& samples, const Chart& chart, std::uint32_t triangle, const Vec2f& point);
+/// Where the scene triangle, which must be one of the chart's, lies over a point in texels of the chart: local metres;
+/// none where the point is outside it.
+std::optional<Vec3f> point_on_triangle(const Scene& scene, const Chart& chart, const ChartSamples& samples,
+                                       std::uint32_t triangle, const Vec2f& point);
 
 }  // namespace skybake

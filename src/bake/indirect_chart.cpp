@@ -30,7 +30,9 @@ class IndirectCell {
           samples_(samples),
           estimator_(estimator),
           other_light_lx_(other_light_lx),
-          tolerance_(tolerance) {}
+          tolerance_(tolerance) {
+        if (const PhotonGatherer* photons = std::get_if<PhotonGatherer>(&estimator)) search_.emplace(photons->map());
+    }
 
     /// Fills `light` of the texels that the cell owns: those on its left and upper border, and at the chart's end also
     /// the others.
@@ -63,7 +65,7 @@ class IndirectCell {
 
     IndirectLight estimate(const ReceiverPoint& point) {
         if (const PhotonGatherer* photons = std::get_if<PhotonGatherer>(&estimator_))
-            return photons->light(point, found_, statistics.rays);
+            return photons->light(point, *search_, statistics.rays);
         return std::get<PathReference>(estimator_).light(point);
     }
 
@@ -157,7 +159,7 @@ class IndirectCell {
     float tolerance_;
     int column_ = 0, row_ = 0;
     std::array<std::optional<IndirectLight>, (kCell + 1) * (kCell + 1)> values_;
-    std::vector<NearPhoton> found_;
+    std::optional<PhotonSearch> search_;  // for photons
 };
 
 }  // namespace

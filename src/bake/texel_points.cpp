@@ -9,21 +9,17 @@ Vec3f TexelPoints::normal(std::size_t texel) const {
 }
 
 std::optional<Vec3f> TexelPoints::subsample(int column, int row, int sub) const {
-    const std::size_t i = samples_.index(column, row);
     const Vec2f point(static_cast<float>(column) + (static_cast<float>(sub % kSubdivision) + 0.5f) / kSubdivision,
                       static_cast<float>(row) + (static_cast<float>(sub / kSubdivision) + 0.5f) / kSubdivision);
-    if (samples_.cover[i] != ChartSamples::Cover::whole && !is_on_surface(column, row, point)) return std::nullopt;
-    const Vec3f n = normal(i);
-    const Vec2f own = texel_coordinate(chart_, samples_.position[i]);
-    Vec3f off = (point.x - own.x) * chart_.u + (point.y - own.y) * chart_.v;
-    off -= chart_.normal * (glm::dot(off, n) / glm::dot(chart_.normal, n));
-    return samples_.position[i] + off + offset_ * n;
-}
-
-/// True when the point lies in the texel's triangle or one of those its neighbours lie in.
-bool TexelPoints::is_on_surface(int column, int row, const Vec2f& point) const {
-    std::array<std::uint32_t, 9> seen;
-    std::size_t count = 0;
+    const auto on = [&](std::uint32_t triangle) -> std::optional<Vec3f> {
+        const std::optional<Vec3f> p = point_on_triangle(scene_, chart_, samples_, triangle, point);
+        if (!p) return std::nullopt;
+        return *p + offset_ * shading_normal(scene_, chart_, triangle);
+    };
+    const std::uint32_t own = samples_.triangle[samples_.index(column, row)];
+    if (const auto p = on(own)) return p;
+    std::array<std::uint32_t, 9> seen{own};
+    std::size_t count = 1;
     for (int y = std::max(row - 1, 0); y <= std::min(row + 1, samples_.size.y - 1); ++y) {
         for (int x = std::max(column - 1, 0); x <= std::min(column + 1, samples_.size.x - 1); ++x) {
             const std::size_t j = samples_.index(x, y);
@@ -32,10 +28,10 @@ bool TexelPoints::is_on_surface(int column, int row, const Vec2f& point) const {
             const auto end = seen.begin() + static_cast<std::ptrdiff_t>(count);
             if (std::find(seen.begin(), end, t) != end) continue;
             seen[count++] = t;
-            if (contains(samples_, chart_, t, point)) return true;
+            if (const auto p = on(t)) return p;
         }
     }
-    return false;
+    return std::nullopt;
 }
 
 }  // namespace skybake

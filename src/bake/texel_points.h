@@ -24,12 +24,12 @@ class TexelPoints {
     /// The texel's own point, lifted off the surface.
     Vec3f lifted(std::size_t texel) const { return samples_.position[texel] + offset_ * normal(texel); }
 
-    /// Subsample `sub` of the texel in its tangent plane, lifted off it; none where that is outside the polygon.
+    /// Subsample `sub` of a covered texel, lifted off the triangle it lies in: the texel's or one that a neighbour lies
+    /// in; none outside of these. On its own triangle, since planar charts hold slopes of half a degree: in the
+    /// chart's plane it would be under the ground.
     std::optional<Vec3f> subsample(int column, int row, int sub) const;
 
   private:
-    bool is_on_surface(int column, int row, const Vec2f& point) const;
-
     const Scene& scene_;
     const Chart& chart_;
     const ChartSamples& samples_;

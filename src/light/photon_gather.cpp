@@ -157,25 +157,32 @@ PhotonGatherer::PhotonGatherer(const PhotonMap& map, const RayScene& rays, doubl
     max_distance_ = static_cast<float>(kSearchRadii * std::sqrt(options.nearest * area_m2 / (kPi * photons)));
 }
 
-IndirectLight PhotonGatherer::light(const ReceiverPoint& point, std::vector<NearPhoton>& found,
-                                    std::uint64_t& ray_count) const {
-    const SurfaceMetric metric = options_.area == PhotonArea::octagon ? SurfaceMetric::octagon : SurfaceMetric::circle;
-    const std::size_t wanted = static_cast<std::size_t>(options_.nearest);
+IndirectLight PhotonGatherer::light(const ReceiverPoint& point, PhotonSearch& search, std::uint64_t& ray_count) const {
+    PhotonQuery query{point.position,
+                      point.normal,
+                      options_.area == PhotonArea::octagon ? SurfaceMetric::octagon : SurfaceMetric::circle,
+                      static_cast<std::size_t>(options_.nearest),
+                      max_distance_,
+                      no_limits()};
     PhotonWindow window{max_distance_, no_limits()};
-    const auto search = [&](float max_distance) {
-        map_.find_nearest(point.position, point.normal, metric, wanted, max_distance, window.limit, found);
-        window.radius = found.size() == wanted ? found.front().distance : max_distance;
+    std::span<const NearPhoton> found;
+    const auto look = [&] {
+        found = search.nearest(query);
+        window.radius = found.size() == query.count ? found.front().distance : query.max_distance;
     };
     IndirectLight light;
-    search(max_distance_);
+    look();
     if (found.empty()) return light;
     light.irradiance = estimate(found, window);
     const float reach = kFeelerReach * window.radius;
     if (options_.feelers == 0 || !find_limits(point.position, point.normal, reach, window, ray_count)) return light;
     const float plain = luminance(light.irradiance);
     // Where all of them lie on this side already, they are the nearest that do.
-    if (std::any_of(found.begin(), found.end(), [&](const NearPhoton& photon) { return !is_within(photon, window); }))
-        search(std::min(max_distance_, reach));
+    if (std::any_of(found.begin(), found.end(), [&](const NearPhoton& photon) { return !is_within(photon, window); })) {
+        query.max_distance = std::min(max_distance_, reach);
+        query.limit = window.limit;
+        look();
+    }
     light.irradiance = found.empty() ? Rgb(0.0f) : estimate(found, window);
     light.leak_lx = plain - luminance(light.irradiance);
     return light;
@@ -222,10 +229,10 @@ std::vector<IndirectLight> gather_indirect(std::span<const ReceiverPoint> points
     std::atomic<std::uint64_t> rays{0};
     constexpr std::size_t kPointsPerTask = 64;
     tbb::parallel_for(std::size_t{0}, (points.size() + kPointsPerTask - 1) / kPointsPerTask, [&](std::size_t t) {
-        std::vector<NearPhoton> found;
+        PhotonSearch search(gatherer.map());
         std::uint64_t traced = 0;
         for (std::size_t i = t * kPointsPerTask; i < std::min((t + 1) * kPointsPerTask, points.size()); ++i)
-            light[i] = gatherer.light(points[i], found, traced);
+            light[i] = gatherer.light(points[i], search, traced);
         rays += traced;
     });
     ray_count += rays;

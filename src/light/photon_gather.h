@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "light/path_reference.h"
-#include "light/photon_map.h"
+#include "light/photon_search.h"
 #include "light/surfaces.h"
 #include "trace/ray_scene.h"
 
@@ -56,11 +56,13 @@ class PhotonGatherer {
     /// of them on the mean.
     PhotonGatherer(const PhotonMap& map, const RayScene& rays, double area_m2, const GatherOptions& options);
 
+    const PhotonMap& map() const { return map_; }
+
     /// Reflected light at a point of a surface. Feelers leave from a little above the surface and reach twice as far as
     /// the photons; beyond what they meet no photon counts, the area ends there, and others are looked for on this
     /// side, as far as the feelers. The standard error stays 0: one map knows nothing of its own. Adds the number of
-    /// feelers traced to `ray_count`. `found` is scratch. Thread-safe.
-    IndirectLight light(const ReceiverPoint& point, std::vector<NearPhoton>& found, std::uint64_t& ray_count) const;
+    /// feelers traced to `ray_count`. `search` must be over the same map; one a thread.
+    IndirectLight light(const ReceiverPoint& point, PhotonSearch& search, std::uint64_t& ray_count) const;
 
   private:
     Rgb estimate(std::span<const NearPhoton> found, const PhotonWindow& window) const;

@@ -1,4 +1,4 @@
-// Photons in space, and the nearest of them about a point of a surface.
+// Photons in space, sorted so that those of a box are found fast.
 #pragma once
 
 #include <array>
@@ -6,35 +6,21 @@
 #include <span>
 #include <vector>
 
+#include "base/box.h"
 #include "light/photon.h"
 
 namespace skybake {
 
-/// How far two points of a surface are apart; u and v of the offset along the surface.
-enum class SurfaceMetric {
-    circle,  // Euclid's
-    octagon  // the largest of |u|, |v|, |u + v|/√2, |u − v|/√2: its balls are regular octagons, their inner radius the
-             // distance
-};
+/// A box along three orthogonal unit axes.
+struct OrientedBox {
+    Vec3f center{0.0f};
+    std::array<Vec3f, 3> axis{};
+    Vec3f half{0.0f};  // metres along each axis
 
-/// The axes that octagons and feelers are laid along: u level, v up the wall; on level ground u east, v north.
-struct SurfaceAxes {
-    Vec3f u, v;
-};
-SurfaceAxes surface_axes(const Vec3f& normal);
-
-/// /// How far a surface is looked at along each of eight directions, k · 45° from u towards v: metres, infinite where
-/// nothing limits.
-using SurfaceLimits = std::array<float, 8>;
-SurfaceLimits no_limits();
-/// Unit direction k in the plane.
-Vec2f surface_direction(std::size_t k);
-
-/// A photon found: where it lies in the plane of the point that asked.
-struct NearPhoton {
-    float distance = 0.0f;  // in the metric asked for, metres
-    Vec2f offset{0.0f};     // along surface_axes, metres
-    std::uint32_t photon = 0;
+    Box3f bounds() const;
+    bool contains(const Vec3f& p) const;
+    /// True only when the other box lies wholly outside one pair of sides.
+    bool misses(const Box3f& box) const;
 };
 
 /// A kd-tree without pointers: each range of the array has its cut at the middle (J. L. Bentley, "Multidimensional
@@ -47,12 +33,8 @@ class PhotonMap {
 
     std::span<const Photon> photons() const { return photons_; }
 
-    /// The `count` nearest photons within `max_distance` that arrived on the same side of the same surface as the
-    /// point: their normal differs from `normal` by less than 25°, and they lie off its plane by less than 2 cm and a
-    /// tenth of /// their distance along it. None lies farther than `limit[k]` along direction k, at k · 45° from u.
-    /// Replaces `found`, the farthest first.
-    void find_nearest(const Vec3f& position, const Vec3f& normal, SurfaceMetric metric, std::size_t count,
-                      float max_distance, const SurfaceLimits& limit, std::vector<NearPhoton>& found) const;
+    /// Appends the indices of the photons in the box, ascending.
+    void find_in(const OrientedBox& box, std::vector<std::uint32_t>& found) const;
 
   private:
     std::vector<Photon> photons_;

@@ -99,6 +99,26 @@ TEST(LampsOnAChart, EdgesAreAsIfAllWereSupersampled) {
     EXPECT_EQ(full.statistics.refined, full.statistics.pairs);
 }
 
+/// Ground that slopes by 0.4° counts as a plane, level here; its texels' subsamples still lie on the slope. In the
+/// chart's plane those uphill would be up to 2.6 mm under it, and dark.
+TEST(LampsOnAChart, SubsamplesLieOnTheSlope) {
+    constexpr float kSlope = 0.007f;
+    const Scene scene = QuadScene()
+                            .quad({-8, -8, -8 * kSlope}, {8, -8, 8 * kSlope}, {8, 8, 8 * kSlope}, {-8, 8, -8 * kSlope},
+                                  ObjectType::terrain)
+                            .scene();
+    const Lamp lamp{"l", Lamp::Type::point, {0.3f, -0.2f, 4}, Rgb(1000.0f)};
+    const Lit single = light_ground(scene, {lamp}, {LampSampling::single, 0.0f}, 1.0f);
+    const Lit full = light_ground(scene, {lamp}, {LampSampling::full, 0.0f}, 1.0f);
+    ASSERT_EQ(single.chart->min_normal_cosine, 1.0f);
+    ASSERT_EQ(single.chart->normal.z, 1.0f);
+    // The mean of I h / d³ over a texel of 1 m is off its middle by ∇²E/24 m², which is most under the lamp:
+    // 6/h² of E.
+    constexpr double kBend = 6.0 / (4.0 * 4.0) / 24.0;
+    for (std::size_t i = 0; i < full.light.size(); ++i)
+        ASSERT_NEAR(full.lux(i), single.lux(i), 1.01 * kBend * single.lux(i));
+}
+
 /// The promise of the cutoff: no texel loses more.
 TEST(LampsOnAChart, CutoffIsKept) {
     std::vector<Lamp> lamps;

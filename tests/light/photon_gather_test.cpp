@@ -38,10 +38,10 @@ MeanAndError estimate(int nearest, PhotonArea area, int trials, const std::funct
         }
         const PhotonMap map(std::move(photons));
         const PhotonGatherer gatherer(map, rays, static_cast<double>(map.photons().size()), {nearest, area, feelers});
-        std::vector<NearPhoton> found;
+        PhotonSearch search(map);
         std::uint64_t traced = 0;
         const double e =
-            static_cast<double>(luminance(gatherer.light({position, {0, 0, 1}}, found, traced).irradiance));
+            static_cast<double>(luminance(gatherer.light({position, {0, 0, 1}}, search, traced).irradiance));
         sum += e;
         square += e * e;
     }
@@ -141,7 +141,7 @@ TEST(Feelers, KeepLightFromLeakingThroughAThinWall) {
     }
 }
 
-TEST(PhotonMap, FindsWhatASearchThroughAllFinds) {
+TEST(PhotonSearch, FindsWhatASearchThroughAllFinds) {
     std::vector<Photon> photons;
     for (std::uint64_t i = 0; i < 20000; ++i) {
         RandomSequence random(5, i, 0);
@@ -149,6 +149,7 @@ TEST(PhotonMap, FindsWhatASearchThroughAllFinds) {
         photons.emplace_back(Vec3f(20.0f * x, 20.0f * y, 0.2f * z), Vec3f(0, 0, side < 0.5f ? -1.0f : 1.0f), Rgb(1.0f));
     }
     const PhotonMap map(photons);
+    PhotonSearch search(map);  // of both: what it has taken must not change what it finds
     for (const SurfaceMetric metric : {SurfaceMetric::circle, SurfaceMetric::octagon}) {
         for (std::uint64_t q = 0; q < 200; ++q) {
             RandomSequence random(6, q, 0);
@@ -163,10 +164,13 @@ TEST(PhotonMap, FindsWhatASearchThroughAllFinds) {
                 if (photon.normal().z > 0.0f && std::abs(off.z) <= 0.02f + 0.1f * d) all.push_back(d);
             }
             std::sort(all.begin(), all.end());
-            std::vector<NearPhoton> found;
-            map.find_nearest(at, {0, 0, 1}, metric, 30, 1e9f, no_limits(), found);
-            ASSERT_EQ(found.size(), 30u);
-            for (std::size_t k = 0; k < 30; ++k) EXPECT_NEAR(found[29 - k].distance, all[k], 1e-5f);
+            const std::span<const NearPhoton> nearest = search.nearest({at, {0, 0, 1}, metric, 30, 20.0f, no_limits()});
+            ASSERT_EQ(nearest.size(), 30u);
+            EXPECT_EQ(nearest.front().distance, std::ranges::max(nearest, {}, &NearPhoton::distance).distance);
+            std::vector<float> found;
+            for (const NearPhoton& photon : nearest) found.push_back(photon.distance);
+            std::sort(found.begin(), found.end());
+            for (std::size_t k = 0; k < 30; ++k) EXPECT_NEAR(found[k], all[k], 1e-5f);
         }
     }
 }
