@@ -301,6 +301,12 @@ int standard_utc_offset_min(int year, const std::string& timezone) {
     return static_cast<int>(std::chrono::duration_cast<std::chrono::minutes>(least).count());
 }
 
+int utc_offset_min(UtcTime time, const std::string& timezone) {
+    const date::sys_info period =
+        zone_of(timezone).get_info(date::sys_time<milliseconds>(milliseconds(time.milliseconds)));
+    return static_cast<int>(std::chrono::duration_cast<std::chrono::minutes>(period.offset).count());
+}
+
 int year_of(const Instant& instant) {
     const date::sys_time<milliseconds> local(
         milliseconds(instant.utc.milliseconds + std::int64_t{60'000} * instant.utc_offset_min));

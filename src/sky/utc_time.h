@@ -50,6 +50,9 @@ std::vector<Instant> parse_instants(std::string_view text, const std::optional<s
 /// Throws InputError for a zone that nobody knows.
 int standard_utc_offset_min(int year, const std::string& timezone);
 
+/// The offset from UTC, minutes, of the clocks of an IANA zone at an instant. Throws InputError as above.
+int utc_offset_min(UtcTime time, const std::string& timezone);
+
 /// The calendar year of an instant by its own offset.
 int year_of(const Instant& instant);
 

@@ -35,7 +35,10 @@ void judge_group(const Rule& rule, Group& group) {
         result.area_pass /= asked;
         result.area_borderline /= asked;
         result.area_fail /= asked;
-        const double wanted = rule.criteria[c].area_share - kRounding;
+        if (result.area_pass_before) *result.area_pass_before /= asked;
+        const std::optional<double>& kept = rule.criteria[c].or_share_of_area_before;
+        double wanted = rule.criteria[c].area_share - kRounding;
+        if (kept && result.area_pass_before) wanted = std::min(wanted, *kept * *result.area_pass_before - kRounding);
         result.verdict = result.area_pass >= wanted                            ? Verdict::pass
                          : result.area_pass + result.area_borderline >= wanted ? Verdict::borderline
                                                                                : Verdict::fail;
@@ -95,6 +98,14 @@ std::vector<Group> rolled_up(const Rule& rule, const Study& study, Level level) 
             }
             for (std::size_t c = 0; c < rule.criteria.size(); ++c) {
                 GroupCriterion& result = group.criteria[c];
+                if (const std::vector<Verdict>& former = study.criteria[c].verdict_before; !former.empty())
+                    result.area_pass_before =
+                        result.area_pass_before.value_or(0.0) + (former[s] == Verdict::pass ? weight : 0.0);
+                if (study.criteria[c].verdict[s] != Verdict::none) {
+                    const double margin = static_cast<double>(study.criteria[c].margin[s]);
+                    const bool is_first = result.area_pass + result.area_borderline + result.area_fail == 0.0;
+                    result.least_margin = is_first ? margin : std::min(result.least_margin, margin);
+                }
                 switch (study.criteria[c].verdict[s]) {
                     case Verdict::pass:
                         result.area_pass += weight;

@@ -1,6 +1,7 @@
 // From cells to façades, storeys, buildings, and the whole.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,8 @@ struct GroupCriterion {
     double area_pass = 0.0;  // shares of the area of which it is asked, 0…1
     double area_borderline = 0.0;
     double area_fail = 0.0;
+    std::optional<double> area_pass_before;  // with a former state, by the threshold alone
+    double least_margin = 0.0;               // of the samples of which it is asked
     Verdict verdict = Verdict::none;
 };
 
@@ -44,8 +47,8 @@ struct Group {
 };
 
 /// The groups of a level, in the order of their first sample. A group passes a criterion when the share of its area
-/// that passes is at least the criterion's, and is borderline when it does so with the borderline cells. Free points
-/// weigh 1 each.
+/// that passes is at least the criterion's (or the criterion's share of what passed before), and is borderline when it
+/// does so with the borderline cells. Free points weigh 1 each.
 std::vector<Group> rolled_up(const Rule& rule, const Study& study, Level level);
 
 }  // namespace skybake

@@ -25,6 +25,18 @@ bool is_of_days(Metric metric) {
     return metric <= Metric::new_shadow_hours;
 }
 
+bool prefers_more(Metric metric) {
+    switch (metric) {
+        case Metric::shadow_hours:
+        case Metric::longest_shadow_hours:
+        case Metric::new_shadow_hours:
+        case Metric::light_incidence_deg:
+            return false;
+        default:
+            return true;
+    }
+}
+
 std::vector<Metric> Rule::all_metrics() const {
     std::vector<Metric> all = metrics;
     for (const Criterion& criterion : criteria) all.push_back(criterion.metric);

@@ -34,6 +34,8 @@ const char* name_of(Metric metric);
 std::optional<Metric> metric_of(std::string_view name);
 /// True for the metrics that hang on the rule's days.
 bool is_of_days(Metric metric);
+/// True for the metrics of which more is better for who wants sun and sky.
+bool prefers_more(Metric metric);
 
 /// How the values of several days become one.
 enum class OverDays { each, any, mean };  // for a threshold "at least": the least, the greatest, the mean
@@ -50,6 +52,8 @@ struct Criterion {
     double tolerance = 0.0;
     OverDays over_days = OverDays::each;
     double area_share = 1.0;  // of a group that has to meet it
+    /// Instead of that share of the area it is enough to keep this share of the area that met it before.
+    std::optional<double> or_share_of_area_before;
     bool is_required = true;  // higher levels of a rule are reported, but not failed
     /// Kinds it is asked of; empty: all of the rule's.
     std::vector<ReceiverKind> kinds;

@@ -163,13 +163,17 @@ CriterionResult judged(const Study& study, const Criterion& criterion) {
     SKYBAKE_CHECK_EQ(result.value.size(), n);
     result.margin.resize(n);
     result.verdict.assign(n, Verdict::none);
+    if (!before.empty()) result.verdict_before.assign(n, Verdict::none);
     for (std::size_t i = 0; i < n; ++i) {
         const ReceiverKind kind = study.receivers.receivers[study.receivers.samples[i].receiver].kind;
         const bool is_asked = criterion.kinds.empty() ||
                               std::find(criterion.kinds.begin(), criterion.kinds.end(), kind) != criterion.kinds.end();
         if (!is_asked) continue;
         std::optional<double> former;
-        if (!before.empty()) former = static_cast<double>(before[i]);
+        if (!before.empty()) {
+            former = static_cast<double>(before[i]);
+            result.verdict_before[i] = judge(criterion, *former, std::nullopt).verdict;
+        }
         const Judgement judgement = judge(criterion, static_cast<double>(result.value[i]), former);
         result.verdict[i] = judgement.verdict;
         result.margin[i] = static_cast<float>(judgement.margin);

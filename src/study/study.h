@@ -28,7 +28,8 @@ struct Column {
 struct CriterionResult {
     std::vector<float> value;  // over the days, as the criterion combines them
     std::vector<float> margin;
-    std::vector<Verdict> verdict;  // none where the criterion is not asked of the sample's kind
+    std::vector<Verdict> verdict;         // none where the criterion is not asked of the sample's kind
+    std::vector<Verdict> verdict_before;  // of the former state by the threshold alone; empty without one
 };
 
 struct Study {

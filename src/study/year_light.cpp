@@ -147,19 +147,22 @@ YearLight year_light(const Weather& weather, const Site& site, double convergenc
     return year;
 }
 
-YearLight cloudless_year(int year_number, const Site& site, double convergence_rad) {
+YearLight cloudless_year(int year_number, const Site& site, double convergence_rad, const Period& period) {
     const MomentMaker maker(site, convergence_rad);
     YearLight year;
     year.nodes = maker.nodes;
     year.sky = summed_sky({});
-    const std::int64_t begin = utc_midnight(year_number, 1, 1).milliseconds;
-    const std::int64_t end = utc_midnight(year_number + 1, 1, 1).milliseconds;
     constexpr std::int64_t kStepMs = 3'600'000 / kParts;
-    for (std::int64_t t = begin + kStepMs / 2; t < end; t += kStepMs) {
-        std::optional<SunMoment> moment = maker.at({t});
-        if (!moment) continue;
-        moment->sunshine_h = 1.0f / kParts;
-        add_moment(year, *moment);
+    for (int month = 1; month <= 12; ++month) {
+        if (std::find(period.months.begin(), period.months.end(), month) == period.months.end()) continue;
+        const std::int64_t begin = utc_midnight(year_number, month, 1).milliseconds;
+        const std::int64_t end = utc_midnight(year_number + month / 12, month % 12 + 1, 1).milliseconds;
+        for (std::int64_t t = begin + kStepMs / 2; t < end; t += kStepMs) {
+            std::optional<SunMoment> moment = maker.at({t});
+            if (!moment) continue;
+            moment->sunshine_h = 1.0f / kParts;
+            add_moment(year, *moment);
+        }
     }
     return year;
 }

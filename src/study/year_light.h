@@ -50,7 +50,7 @@ struct YearLight {
 YearLight year_light(const Weather& weather, const Site& site, double convergence_rad, const Period& period);
 
 /// Without weather: every moment with the sun up counts as sunshine, and there is no energy. `year` of the sun's ways.
-YearLight cloudless_year(int year, const Site& site, double convergence_rad);
+YearLight cloudless_year(int year, const Site& site, double convergence_rad, const Period& period = {});
 
 /// What samples get of the sun over a period.
 struct YearSun {

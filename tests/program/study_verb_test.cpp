@@ -5,12 +5,14 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "json_schema.h"
 #include "run_program.h"
 
 namespace skybake {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr double kX = -67000.0, kY = 215000.0;  // EPSG:31256, Graz's longitude 15.4, latitude 47.07
 
@@ -125,6 +127,92 @@ TEST_F(StudyVerb, TowerThrowsNewShadow) {
     EXPECT_TRUE(gone["new_shadow"].empty());
 }
 
+/// A report that anybody can open and print: one file, no script, no link; a hostile id is text.
+TEST_F(StudyVerb, ReportIsOneSafeFile) {
+    std::ofstream(place / "evil.json") << box_city({{"<script>alert(1)</script>\"&", {-5, -5, 0, 5, 5, 6}}}, true);
+    json_of({place.str("evil.json"), "--rule", "en17037-sunlight", "--add", place.str("tower.json"), "-o",
+             place.str("out")});
+    const std::string html = text_of(place / "out" / "report.html");
+    EXPECT_THAT(html, Not(HasSubstr("<script")));
+    EXPECT_THAT(html, HasSubstr("&lt;script&gt;alert(1)&lt;/script&gt;&quot;&amp;"));
+    for (const char* reference : {"src=\"", "href=\"http", "@import", "<link", "url("})
+        EXPECT_THAT(html, Not(HasSubstr(reference)));
+    for (const char* part :
+         {"To be checked before relying on a verdict", "SHA-256", "at least 1.5 h", "What the plan changes",
+          "Affected: less than before", "Better than before", "New shadow: enter and exit", "The sky of chosen places",
+          "Shadows by the hour", "Uncertainty", "--rule=en17037-sunlight"})
+        EXPECT_THAT(html, HasSubstr(part));
+    json_of({place.str("evil.json"), "--rule", "en17037-sunlight", "--lang", "de", "-o", place.str("de")});
+    const std::string german = text_of(place / "de" / "report.html");
+    EXPECT_THAT(german, HasSubstr("<html lang=\"de\">"));
+    EXPECT_THAT(german, HasSubstr("mindestens 1,5 h"));
+}
+
+TEST_F(StudyVerb, VerifiesItsReport) {
+    json_of({place.str("city.json"), "--rule", "nyc-ceqr", "--add", place.str("tower.json"), "--polygons",
+             place.str("park.geojson"), "-o", place.str("out")});
+    const std::string report = place.str("out") + "/report.json";
+    const nlohmann::json held = json_of({"--verify", report});
+    EXPECT_EQ(held["agrees"], true);
+    EXPECT_EQ(held["rows"], 200);  // a park of 20 × 10 m
+    EXPECT_EQ(held["equal_values"], held["values"]);
+
+    // A number that was made better by hand.
+    nlohmann::json forged = nlohmann::json::parse(text_of(report));
+    double& value = forged["rows"][7]["values"][0].get_ref<double&>();
+    value += 0.1;
+    std::ofstream(report) << forged;
+    Running differs(place, {"study", "--verify", report});
+    EXPECT_EQ(differs.exit_code(), 1);
+    EXPECT_THAT(differs.err(), HasSubstr("cell 7 of park: sun_hours_12-21"));
+    EXPECT_THAT(differs.out(), HasSubstr("does not agree: 200 rows"));
+    value -= 0.1;
+
+    // A table that was edited, and one that is gone.
+    std::ofstream(report) << forged;
+    std::ofstream(place / "out" / "cells.csv", std::ios::app) << "x\n";
+    std::filesystem::remove(place / "out" / "groups.csv");
+    Running edited(place, {"study", "--verify", report});
+    EXPECT_EQ(edited.exit_code(), 1);
+    EXPECT_THAT(edited.err(), HasSubstr("cells.csv is not the table"));
+    EXPECT_THAT(edited.out(), HasSubstr("not here to compare: groups.csv"));
+
+    std::ofstream(place / "tower.json", std::ios::app) << " ";
+    EXPECT_THAT(refusal({"--verify", report}), HasSubstr("its plan '../tower.json' has changed since"));
+    std::filesystem::remove(place / "tower.json");
+    EXPECT_THAT(refusal({"--verify", report}), HasSubstr("tower.json"));
+    std::ofstream(report) << "{}";
+    EXPECT_THAT(refusal({"--verify", report}), HasSubstr("is no report of skybake study"));
+    std::ofstream(report) << R"({"skybake_study": 1})";
+    EXPECT_THAT(refusal({"--verify", report}), HasSubstr("is damaged"));
+}
+
+TEST_F(StudyVerb, ReportsKeepTheirSchema) {
+    const nlohmann::json schema = nlohmann::json::parse(text_of(SKYBAKE_SCHEMA_FOLDER "/study.schema.json"));
+    json_of({place.str("city.json"), "--rule", "nyc-ceqr", "--add", place.str("tower.json"), "--polygons",
+             place.str("park.geojson"), "-o", place.str("a")});
+    json_of({place.str("city.json"), "--rule", "bre209-apsh", "--cell", "3", "--remove", "house", "--add",
+             place.str("tower.json"), "--receivers", "ground", "--timezone", "Europe/Vienna", "--step", "30min", "-o",
+             place.str("b"), "--no-cells"});
+    for (const char* folder : {"a", "b"}) {
+        const nlohmann::json report = nlohmann::json::parse(text_of(place / folder / "report.json"));
+        check_schema(schema, schema, report, folder);
+    }
+    EXPECT_TRUE(std::filesystem::exists(place / "a" / "shadows.gpkg"));
+    EXPECT_FALSE(std::filesystem::exists(place / "b" / "shadows.gpkg"));  // the rule has no days
+}
+
+TEST_F(StudyVerb, MonthsAreAPeriod) {
+    const auto sunshine = [&](const std::string& months) {
+        return json_of(
+            {place.str("city.json"), "--rule", "bre209-apsh", "--cell", "5", "--months", months})["kinds"][0];
+    };
+    EXPECT_EQ(sunshine("10-3"), sunshine("1,2,3,10-12"));
+    EXPECT_NE(sunshine("4-9"), sunshine("10-3"));
+    EXPECT_THAT(refusal({place.str("city.json"), "--months", "13"}), HasSubstr("--months '13'"));
+    EXPECT_THAT(refusal({place.str("city.json"), "--months", "4-"}), HasSubstr("--months '4-'"));
+}
+
 TEST_F(StudyVerb, RefusesWhatItCannotDo) {
     EXPECT_THAT(refusal({place.str("city.json"), "--rule", "bre209"}), HasSubstr("did you mean 'bre209-vsc'"));
     EXPECT_THAT(refusal({place.str("city.json"), "--rule", "nyc-ceqr", "--polygons", place.str("park.geojson")}),
@@ -140,6 +228,17 @@ TEST_F(StudyVerb, RefusesWhatItCannotDo) {
     EXPECT_THAT(refusal({place.str("city.json"), "--remove", "houze"}), HasSubstr("did you mean 'house'"));
     EXPECT_THAT(refusal({place.str("city.json"), "--step", "soon"}), HasSubstr("--step 'soon'"));
     EXPECT_THAT(refusal({}), HasSubstr("needs a CITY"));
+    // Without ground between them a city and a hamlet 30 km apart: a raster of both at 1 m would hold 9e8 cells.
+    std::ofstream(place / "hamlet.json") << box_city({{"hut", {29000, 29000, 0, 29010, 29010, 5}}}, false);
+    nlohmann::json ground = nlohmann::json::parse(text_of(place / "hamlet.json"));
+    ground["vertices"].insert(ground["vertices"].end(),
+                              {{28990000, 28990000, 0}, {29020000, 28990000, 0}, {29020000, 29020000, 0}});
+    ground["CityObjects"]["meadow"] = {
+        {"type", "TINRelief"},
+        {"geometry", {{{"type", "CompositeSurface"}, {"lod", "1"}, {"boundaries", {{{8, 9, 10}}}}}}}};
+    std::ofstream(place / "hamlet.json") << ground;
+    EXPECT_THAT(refusal({place.str("city.json"), place.str("hamlet.json"), "--receivers", "ground"}),
+                HasSubstr("the areas lie far apart"));
 }
 
 TEST_F(StudyVerb, ListsItsRules) {

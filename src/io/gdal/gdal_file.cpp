@@ -2,7 +2,6 @@
 
 #include <cpl_conv.h>
 #include <fmt/format.h>
-#include <ogr_spatialref.h>
 
 #include <mutex>
 #include <vector>
@@ -11,12 +10,16 @@
 
 namespace skybake::io {
 
-DatasetPtr open_dataset(const std::filesystem::path& path, unsigned kind, std::span<const char* const> drivers) {
+void register_drivers() {
     static std::once_flag once;
     std::call_once(once, [] {
         GDALAllRegister();
         CPLSetConfigOption("OGR_SQLITE_LOAD_EXTENSIONS", "");  // a GeoPackage brings no code
     });
+}
+
+DatasetPtr open_dataset(const std::filesystem::path& path, unsigned kind, std::span<const char* const> drivers) {
+    register_drivers();
     std::vector<const char*> allowed(drivers.begin(), drivers.end());
     allowed.push_back(nullptr);
     const QuietErrors quiet;
@@ -45,6 +48,18 @@ NamedSystem named_system(const OGRSpatialReference* system) {
     if (system->exportToWkt(&wkt, options) == OGRERR_NONE && wkt) named.name = wkt;
     CPLFree(wkt);
     return named;
+}
+
+OGRSpatialReference reference_of(const std::string& crs) {
+    OGRSpatialReference reference;
+    if (!crs.empty()) {
+        // "EPSG:25832+5783" is compound; GDAL knows that form.
+        // The name may come from a stranger's file: it opens no other file.
+        const char* const limits[] = {"ALLOW_NETWORK_ACCESS=NO", "ALLOW_FILE_ACCESS=NO", nullptr};
+        if (reference.SetFromUserInput(crs.c_str(), limits) != OGRERR_NONE) reference.Clear();
+        reference.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    }
+    return reference;
 }
 
 }  // namespace skybake::io

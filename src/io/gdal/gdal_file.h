@@ -3,7 +3,9 @@
 
 #include <cpl_error.h>
 #include <gdal_priv.h>
+#include <ogr_spatialref.h>
 
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <span>
@@ -27,6 +29,11 @@ struct DatasetDeleter {
 };
 using DatasetPtr = std::unique_ptr<GDALDataset, DatasetDeleter>;
 
+/// Makes GDAL know its formats; once is enough, more do not harm.
+void register_drivers();
+
+inline constexpr std::array<const char*, 3> kVectorDrivers = {"GPKG", "GeoJSON", "ESRI Shapefile"};
+
 /// Opens `path` with one of the named drivers, silently and for reading only. Throws InputError with GDAL's reason.
 /// `kind` is GDAL_OF_RASTER or GDAL_OF_VECTOR.
 DatasetPtr open_dataset(const std::filesystem::path& path, unsigned kind, std::span<const char* const> drivers);
@@ -40,5 +47,8 @@ struct NamedSystem {
     Vec2d place(double x, double y) const { return is_latitude_first ? Vec2d(y, x) : Vec2d(x, y); }
 };
 NamedSystem named_system(const OGRSpatialReference* system);
+
+/// The other way: what GDAL knows of a name, east before north; empty for a name that it does not know.
+OGRSpatialReference reference_of(const std::string& crs);
 
 }  // namespace skybake::io

@@ -21,7 +21,6 @@
 namespace skybake::io {
 namespace {
 
-constexpr std::array<const char*, 3> kDrivers = {"GPKG", "GeoJSON", "ESRI Shapefile"};
 constexpr double kHighestBuilding = 2000.0;  // metres; above it a height is a slip of the pen
 /// A roof's height where only its shape is told: 30° on half the width, at most half of the building.
 const double kUsualPitch = std::tan(radians_from_degrees(30.0));
@@ -99,7 +98,7 @@ class FootprintReader {
     ReadFile read() {
         ReadFile file{checked_file_size(path_), hash_of_file(path_)};
         const QuietErrors quiet;
-        const DatasetPtr dataset = open_dataset(path_, GDAL_OF_VECTOR, kDrivers);
+        const DatasetPtr dataset = open_dataset(path_, GDAL_OF_VECTOR, kVectorDrivers);
         progress_.begin("read " + path_.filename().string(), static_cast<std::uint64_t>(dataset->GetLayerCount()));
         for (int i = 0; i < dataset->GetLayerCount(); ++i) {
             OGRLayer* layer = dataset->GetLayer(i);

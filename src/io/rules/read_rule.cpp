@@ -157,7 +157,7 @@ void read_sun(const Node& sun, Rule& rule) {
 
 Criterion criterion_of(const Node& node) {
     node.allow({"id", "text", "metric", "at_least", "at_most", "or_share_of_before", "tolerance", "over_days",
-                "area_share", "required", "kinds"});
+                "area_share", "or_share_of_area_before", "required", "kinds"});
     Criterion criterion;
     criterion.id = node.text("id");
     criterion.text = node.text_or("text", "");
@@ -170,6 +170,8 @@ Criterion criterion_of(const Node& node) {
     criterion.over_days = node.word_or<OverDays>(
         "over_days", OverDays::each, {{"each", OverDays::each}, {"any", OverDays::any}, {"mean", OverDays::mean}});
     criterion.area_share = node.number_or("area_share", 1.0, 0.0, 1.0);
+    if (node.has("or_share_of_area_before"))
+        criterion.or_share_of_area_before = node.number("or_share_of_area_before", 0.0, 1.0);
     criterion.is_required = node.flag_or("required", true);
     criterion.kinds = kinds_of(node, "kinds");
     return criterion;

@@ -1,7 +1,7 @@
 #include <nlohmann/json.hpp>
 
-#include "io/manifest/sha256.h"
 #include "io/study/study_tables.h"
+#include "study/study_rows.h"
 
 namespace skybake::io {
 namespace {
@@ -19,7 +19,9 @@ json group_json(const Rule& rule, const Study& study, const Group& group) {
         criteria[rule.criteria[c].id] = {{"area_pass", g.area_pass},
                                          {"area_borderline", g.area_borderline},
                                          {"area_fail", g.area_fail},
+                                         {"least_margin", g.least_margin},
                                          {"verdict", name_of(g.verdict)}};
+        if (g.area_pass_before) criteria[rule.criteria[c].id]["area_pass_before"] = *g.area_pass_before;
     }
     return {{"level", name_of(group.level)},
             {"id", group.id},
@@ -31,7 +33,7 @@ json group_json(const Rule& rule, const Study& study, const Group& group) {
             {"criteria", criteria}};
 }
 
-json rule_json(const Rule& rule, const StudyFacts& facts) {
+json rule_json(const Rule& rule) {
     json criteria = json::array();
     for (const Criterion& c : rule.criteria) {
         json entry = {{"id", c.id},
@@ -44,9 +46,9 @@ json rule_json(const Rule& rule, const StudyFacts& facts) {
         if (c.at_least) entry["at_least"] = *c.at_least;
         if (c.at_most) entry["at_most"] = *c.at_most;
         if (c.or_share_of_before) entry["or_share_of_before"] = *c.or_share_of_before;
+        if (c.or_share_of_area_before) entry["or_share_of_area_before"] = *c.or_share_of_area_before;
         criteria.push_back(std::move(entry));
     }
-    const FileHash hash = hash_file(facts.rule_file);
     return {{"id", rule.id},
             {"version", rule.version},
             {"title", rule.title},
@@ -54,17 +56,27 @@ json rule_json(const Rule& rule, const StudyFacts& facts) {
             {"source_date", rule.source_date},
             {"confirmed", rule.confirmed},
             {"to_check", rule.to_check},
-            {"sha256", hash.sha256},
             {"criteria", criteria}};
 }
 
 }  // namespace
 
 json study_report(const Rule& rule, const Study& study, const std::vector<Group>& groups, const StudyFacts& facts) {
-    json inputs = json::array();
-    for (const std::filesystem::path& input : facts.inputs) {
-        const FileHash hash = hash_file(input);
-        inputs.push_back({{"file", input.filename().string()}, {"bytes", hash.bytes}, {"sha256", hash.sha256}});
+    json inputs = json::array(), tables = json::array();
+    for (const StudyInput& input : facts.inputs)
+        inputs.push_back(
+            {{"role", input.role}, {"file", input.file}, {"bytes", input.bytes}, {"sha256", input.sha256}});
+    for (const StudyInput& table : facts.tables)
+        tables.push_back({{"file", table.file}, {"bytes", table.bytes}, {"sha256", table.sha256}});
+    json columns = json::array();
+    for (const Column& column : study.columns)
+        columns.push_back(
+            {{"name", column.name}, {"metric", name_of(column.metric)}, {"unit", unit_of(column.metric)}});
+    json rows = json::array();
+    for (const StudyRow& row : rows_of(study, sampled_packets(study.receivers, kReportPackets))) {
+        const Vec3d& p = row.position;
+        rows.push_back(
+            {{"cell", row.sample}, {"receiver", row.receiver}, {"place", {p.x, p.y, p.z}}, {"values", row.values}});
     }
     json days = json::array();
     for (const SunDay& day : study.days) {
@@ -106,11 +118,14 @@ json study_report(const Rule& rule, const Study& study, const std::vector<Group>
                      {"cell_m", facts.receivers.cell_m},
                      {"height_m", facts.receivers.height_m},
                      {"storey_height_m", facts.receivers.storey_height_m},
+                     {"months", facts.period.months},
                      {"weather", facts.weather ? json(*facts.weather) : json()}};
     return {{"skybake_study", 1},
             {"program", {{"version", facts.program_version}, {"isa", facts.embree_isa}}},
-            {"rule", rule_json(rule, facts)},
+            {"rule", rule_json(rule)},
             {"inputs", inputs},
+            {"arguments", facts.arguments},
+            {"tables", tables},
             {"crs", facts.crs},
             {"settings", settings},
             {"has_before", facts.has_before},
@@ -121,9 +136,11 @@ json study_report(const Rule& rule, const Study& study, const std::vector<Group>
             {"receivers", study.receivers.receivers.size()},
             {"enclosed_cells_left_out", study.receivers.enclosed},
             {"rays", study.rays},
+            {"columns", columns},
             {"kinds", kinds},
             {"buildings", buildings},
-            {"new_shadow", shadows}};
+            {"new_shadow", shadows},
+            {"rows", rows}};
 }
 
 }  // namespace skybake::io

@@ -7,7 +7,7 @@
 #include "base/vec.h"
 #include "io/file/csv_field.h"
 #include "io/file/replace_file.h"
-#include "io/geodata/geodata.h"
+#include "io/gdal/write_maps.h"
 
 namespace skybake::io {
 namespace {

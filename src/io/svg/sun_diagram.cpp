@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "io/file/replace_file.h"
+#include "io/xml/xml_text.h"
 
 namespace skybake::io {
 namespace {
@@ -25,30 +26,6 @@ constexpr double kSmallSize = 20.0;
 constexpr double kMargin = 20.0;
 
 constexpr const char* kMonths[] = {"Jan", "Feb", "Mar", "Apr", "May", "Jun", "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"};
-
-std::string escaped(std::string_view text) {
-    std::string out;
-    for (const char c : text) {
-        switch (c) {
-            case '&':
-                out += "&amp;";
-                break;
-            case '<':
-                out += "&lt;";
-                break;
-            case '>':
-                out += "&gt;";
-                break;
-            case '"':
-                out += "&quot;";
-                break;
-            default:
-                // XML knows no other control characters, not even escaped.
-                out += static_cast<unsigned char>(c) < 0x20 && c != '\t' && c != '\n' ? ' ' : c;
-        }
-    }
-    return out;
-}
 
 std::string day_text(CalendarDay day) {
     return fmt::format("{} {}", day.day, kMonths[day.month - 1]);
@@ -94,8 +71,9 @@ class Drawing {
             "height=\"{1:.0f}\" font-family=\"DejaVu Sans, Verdana, Arial, sans-serif\" role=\"img\">\n"
             "<title>{2}</title>\n"
             "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n",
-            kWidth, height_, escaped(diagram_.title));
+            kWidth, height_, xml_text(diagram_.title));
         head();
+        obstructions();
         grid();
         hours();
         days();
@@ -121,7 +99,7 @@ class Drawing {
     /// Text about its middle, in a group's style; `y` is corrected from the middle to the baseline.
     static std::string text(std::string_view content, const Vec2d& middle, double size, const char* attributes) {
         return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{:.0f}\" text-anchor=\"middle\" {}>{}</text>\n",
-                           middle.x, middle.y + 0.36 * size, size, attributes, escaped(content));
+                           middle.x, middle.y + 0.36 * size, size, attributes, xml_text(content));
     }
 
     /// Writes a label at the first of the places where it lies on no other, if there is one.
@@ -190,6 +168,24 @@ class Drawing {
         out_ += "</g>\n";
     }
 
+    void obstructions() {
+        for (const SkyShade& shade : diagram_.shades) {
+            std::string path;
+            for (const SkyPatch& patch : shade.patches) {
+                const auto corner = [&](double azimuth, double elevation) { return at({azimuth, elevation}); };
+                const Vec2d a = corner(patch.azimuth_begin_rad, patch.elevation_begin_rad);
+                const Vec2d b = corner(patch.azimuth_end_rad, patch.elevation_begin_rad);
+                const Vec2d c = corner(patch.azimuth_end_rad, patch.elevation_end_rad);
+                const Vec2d d = corner(patch.azimuth_begin_rad, patch.elevation_end_rad);
+                fmt::format_to(std::back_inserter(path), "M{:.1f} {:.1f}L{:.1f} {:.1f}L{:.1f} {:.1f}L{:.1f} {:.1f}Z",
+                               a.x, a.y, b.x, b.y, c.x, c.y, d.x, d.y);
+            }
+            // The stroke closes the seams between neighbouring patches.
+            out_ += fmt::format("<path class=\"shade\" fill=\"{0}\" stroke=\"{0}\" stroke-width=\"0.6\" d=\"{1}\"/>\n",
+                                xml_text(shade.colour), path);
+        }
+    }
+
     void lines(const std::vector<SunPathLine>& parts) {
         for (const SunPathLine& line : parts) {
             if (line.size() < 2) continue;
@@ -224,7 +220,7 @@ class Drawing {
             const Vec2d p = at({mark.azimuth_rad, mark.elevation_rad});
             out_ +=
                 fmt::format("<circle class=\"mark\" cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"9\"><title>{}</title></circle>\n",
-                            p.x, p.y, escaped(mark.label));
+                            p.x, p.y, xml_text(mark.label));
             taken_.push_back({p, Vec2d(9.0)});
         }
         out_ += "</g>\n";

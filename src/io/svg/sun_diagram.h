@@ -27,6 +27,18 @@ struct SunMark {
     double elevation_rad = 0.0;  // at or above the horizon
 };
 
+/// A piece of the dome between two azimuths, of a few degrees, and two elevations.
+struct SkyPatch {
+    double azimuth_begin_rad = 0.0, azimuth_end_rad = 0.0;
+    double elevation_begin_rad = 0.0, elevation_end_rad = 0.0;
+};
+
+/// Parts of the sky that something hides, in one colour ("#rrggbb").
+struct SkyShade {
+    std::string colour;
+    std::vector<SkyPatch> patches;
+};
+
 struct SunDiagram {
     std::string title;
     std::vector<std::string> subtitles;
@@ -36,6 +48,7 @@ struct SunDiagram {
     std::vector<DayArc> chosen_days;  // emphasised, without label
     std::vector<HourLine> hours;
     std::vector<SunMark> marks;
+    std::vector<SkyShade> shades;  // below all lines
 };
 
 /// A picture of 1200 units' width, to be shown at 600 pixels or more: north up, east to the right, as on a map.

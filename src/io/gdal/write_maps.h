@@ -1,21 +1,15 @@
-// Maps of a study: areas in, rasters and cells out, by GDAL.
+// Maps of a study for geographic information systems: rasters, cells and shadows.
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "study/receivers.h"
+#include "study/study_pictures.h"
 
 namespace skybake::io {
-
-/// The polygons of a GeoJSON, GeoPackage or any other vector file that GDAL reads, in the coordinates of `crs`
-/// (whatever PROJ understands). The id is the attribute "id", or "name", or the feature's number. A file that names a
-/// reference system is transformed from it; one that names none is taken to be in `crs` (GeoJSON without "crs" is in
-/// WGS 84, RFC 7946, unless its numbers cannot be degrees). Throws InputError for a file that cannot be read, has no
-/// polygon, or lies wholly outside `lo`…`hi`, naming both extents.
-std::vector<AreaPolygon> read_polygons(const std::filesystem::path& path, const std::string& crs, const Vec2d& lo,
-                                       const Vec2d& hi);
 
 /// One band of a raster: a value for each of some samples.
 struct RasterBand {
@@ -23,6 +17,14 @@ struct RasterBand {
     std::string unit;                            // "h"
     const std::vector<float>* values = nullptr;  // one a sample
 };
+
+/// The cells of the lattice that a raster of the ground and polygon samples spans.
+struct RasterExtent {
+    std::int64_t left = 0, top = 0;  // of the lattice through the map's origin
+    std::int64_t width = 0, height = 0;
+};
+/// None without such samples.
+std::optional<RasterExtent> raster_extent(const ReceiverSet& set);
 
 /// Writes the ground and polygon samples of a set as a GeoTIFF, a band a column: cell size and place as in the lattice,
 /// 32-bit floats, deflate, nodata −9999, the bands with names and units. `crs` may be empty. Throws InputError when it
@@ -41,5 +43,11 @@ struct CellColumn {
 /// points; attributes receiver, kind, building, storey and the columns. Throws InputError when it cannot be written.
 void write_geopackage(const std::filesystem::path& path, const ReceiverSet& set, const std::vector<CellColumn>& columns,
                       const std::string& crs);
+
+/// Writes the shadows at whole hours as a GeoPackage: the layer "shadows" of multipolygons with kind ("city", "plan",
+/// "new"), day, clock, UTC, the sun's place (as seen; azimuth from true north) and the area in m². Throws InputError
+/// when it cannot be written.
+void write_shadows_gpkg(const std::filesystem::path& path, const StudyPictures& pictures, const Study& study,
+                        double convergence_rad, const std::string& crs);
 
 }  // namespace skybake::io

@@ -1,0 +1,72 @@
+// A study's city in all its states, ready for rays: what study_city, its pictures and the check of a report start with.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "api/load_city.h"
+#include "scene/scene.h"
+#include "sky/weather.h"
+#include "study/study.h"
+
+namespace skybake {
+
+struct StudyRequest {
+    std::vector<std::filesystem::path> city;
+    std::vector<std::filesystem::path> added;   // files of the plan
+    std::vector<std::filesystem::path> before;  // another city as the former state
+    std::vector<std::string> plan;              // objects of the city that are the plan
+    std::vector<std::string> removed;           // objects that the plan takes away
+    LoadOptions load;
+
+    Rule rule;
+    std::filesystem::path rule_file;
+    ReceiverOptions receivers;  // without polygons, and without kinds: then the rule's
+    std::optional<std::filesystem::path> polygons;
+    std::optional<std::filesystem::path> points;  // where receivers.points come from
+    std::optional<Site> site;                     // instead of the CRS's
+    std::optional<Weather> weather;
+    Period period;
+    StudySettings settings;  // site, convergence and year_light are filled in here
+    bool wants_pictures = false;
+};
+
+/// One state of the city, ready for rays.
+struct CityState {
+    CityState(const CityModel& city, FindingLog& findings) : scene(build_scene(city, {}, findings)), rays(scene) {}
+    Scene scene;
+    RayScene rays;
+    StudyCity view() const { return {&scene, &rays}; }
+};
+
+struct PreparedStudy {
+    std::vector<std::filesystem::path> city_files;  // with those of the plan
+    std::string crs;
+    std::vector<std::string> plan, removed;  // objects with all below them; sorted
+    FindingLog findings;
+    std::unique_ptr<CityState> after;
+    std::unique_ptr<CityState> before;   // none without a former state
+    std::unique_ptr<CityState> planned;  // what the plan brings, alone; none without
+    std::vector<SunDay> days;
+    ReceiverOptions receiver_options;
+    ReceiverSet receivers;
+    std::unique_ptr<YearLight> year;  // none where the rule needs none
+    StudySettings settings;
+    bool looks_at_plan_alone = false;
+
+    StudyCity city() const { return looks_at_plan_alone ? planned->view() : after->view(); }
+    /// The plan's own shadow has no former state.
+    std::optional<StudyCity> former() const {
+        return before && !looks_at_plan_alone ? std::optional<StudyCity>(before->view()) : std::nullopt;
+    }
+};
+
+/// Loads the city and builds its states and receivers. Throws InputError for what makes the study impossible: no place
+/// on Earth, a rule without what it needs (former state, weather, plan), a day without sun, no receivers, unknown
+/// objects, a former state in another reference system.
+PreparedStudy prepare_study(const StudyRequest& request, Progress& progress);
+
+}  // namespace skybake
