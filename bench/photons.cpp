@@ -111,7 +111,7 @@ void print_estimators(const Judge& judge, std::uint64_t count) {
         "| area | feelers | nearest | reflected: bias, % | RMS, % | all light: bias, % | RMS, % | gather, µs a point "
         "|\n"
         "|---|---|---|---|---|---|---|---|\n");
-    for (const int nearest : {50, 100}) {
+    for (const int nearest : {50, 100, 200, 400}) {
         for (std::size_t area = 0; area < kPhotonAreaNames.size(); ++area) {
             for (const int feelers : {0, 4, 8}) {
                 const Error e = error_of(judge, *photons.map, {nearest, static_cast<PhotonArea>(area), feelers});

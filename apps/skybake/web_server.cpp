@@ -256,15 +256,15 @@ WebServer::WebServer(std::vector<fs::path> roots, std::map<std::string, fs::path
     });
     server.Get(".*", [this](const httplib::Request& request, httplib::Response& response) {
         std::string path = request.path;
-        std::vector<fs::path> roots = state_->roots;
+        std::vector<fs::path> folders = state_->roots;
         const std::size_t slash = path.find('/', 1);
         if (slash != std::string::npos) {
             if (const auto mount = state_->mounts.find(path.substr(1, slash - 1)); mount != state_->mounts.end()) {
-                roots = {mount->second};
+                folders = {mount->second};
                 path.erase(0, slash);
             }
         }
-        for (const fs::path& root : roots) {
+        for (const fs::path& root : folders) {
             if (const std::optional<fs::path> file = file_below(root, path)) {
                 answer_file(request, response, *file, state_->packed);
                 return;

@@ -23,10 +23,10 @@ constexpr double kFootStep = 2.0;    // along the foot of a wall. Metres
 constexpr int kMostSteps = 64;       // for one wall
 constexpr double kLevel = 2.0;       // feet that differ by less may stand on a plane. Metres
 
-/// Vertices at the feet of all objects and points along the edges between them, thinned to the lowest in each square
-/// metre, in a fixed order. Without those along the edges a long wall would stand over a triangle between its
-/// neighbours' lower feet.
-std::vector<Vec3d> feet_of(const CityModel& city) {
+/// Vertices at the feet of all objects, thinned to the lowest in each square metre, in a fixed order; and, when asked
+/// for, points along the edges between them, without which a long wall would stand over a triangle between its
+/// neighbours' lower feet. How many those are hangs on how the polygons are cut into triangles.
+std::vector<Vec3d> feet_of(const CityModel& city, bool with_edges) {
     std::map<std::pair<std::int64_t, std::int64_t>, Vec3d> cells;
     const auto add = [&](const Vec3d& p) {
         const auto [cell, is_new] = cells.emplace(std::pair(std::llround(p.x), std::llround(p.y)), p);
@@ -45,7 +45,7 @@ std::vector<Vec3d> feet_of(const CityModel& city) {
                 const Vec3d& next = object.geometry.vertices[ring[(i + 1) % ring.size()]];
                 if (p.z > lowest + kFootBand) continue;
                 add(p);
-                if (next.z > lowest + kFootBand) continue;
+                if (!with_edges || next.z > lowest + kFootBand) continue;
                 const double length = glm::distance(Vec2d(p), Vec2d(next));
                 const int steps = static_cast<int>(std::min(length / kFootStep, static_cast<double>(kMostSteps)));
                 for (int k = 1; k < steps; ++k) add(p + (next - p) * (static_cast<double>(k) / steps));
@@ -159,7 +159,7 @@ void add_ground(CityModel& city, GroundChoice choice, double margin_m, FindingLo
             findings.add(make_finding("SB502", where, "the city has ground of its own; none was added."));
         return;
     }
-    std::vector<Vec3d> feet = feet_of(city);
+    std::vector<Vec3d> feet = feet_of(city, choice == GroundChoice::draped);
     if (feet.empty()) return;
     Box3d foot_box;
     for (const Vec3d& p : feet) foot_box.extend(p);

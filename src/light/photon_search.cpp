@@ -21,13 +21,13 @@ constexpr float kGuess = 1.15f;
 constexpr float kClose = 2.0f;
 // How many radii a patch reaches from the point that it is taken for: just enough for one that lies far from the last
 // point; where points lie close, enough for those that follow.
-constexpr float kOwnRadii = 1.15f, kSharedRadii = 5.0f;
+constexpr float kOwnRadii = 1.15f, kSharedRadii = 3.6f;
 // A shared patch serves radii up to this many times the first one's: behind a feeler's wall photons are looked for
 // twice as far.
 constexpr float kMostGrowth = 2.1f;
-// Where a fifth of that would do, photons lie too dense to look through all of
+// Where a third of that would do, photons lie too dense to look through all of
 // the patch.
-constexpr float kMostFall = 0.2f;
+constexpr float kMostFall = 0.3f;
 // A patch answers for points whose normal differs from its own by less
 // than 2.5°.
 constexpr float kPatchCosine = 0.999f;
