@@ -27,7 +27,7 @@ void add_bounce_options(CLI::App* verb, BounceOptions& options) {
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
     verb->add_option("--photons", options.photons,
-                     "photons that sun, sky and lamps send out, for each instant; default: 20 a m2 of surface, at "
+                     "photons that sun, sky and lamps send out, for each instant; default: 40 a m2 of surface, at "
                      "least 1 million")
         ->group(kGroup)
         ->type_name("N")

@@ -21,9 +21,9 @@ struct BounceOptions {
     std::string indirect = "none";
     int bounces = 8;
     int paths = 1024;                      // per point, of the reference
-    std::optional<std::uint64_t> photons;  // without: 20 a square metre of surface
+    std::optional<std::uint64_t> photons;  // without: 40 a square metre of surface
 
-    int nearest = 100;
+    int nearest = 200;
     std::string area{kPhotonAreaNames[0]};
     int feelers = 8;
 };

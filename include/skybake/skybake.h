@@ -66,7 +66,7 @@ struct Bake {
     std::string indirect = "none";       // reflected light: "photons" or "reference" (unbiased paths, slow)
     int bounces = 8;                     // reflections at most
     std::optional<std::uint64_t>
-        photons;       // for each instant; default: 20 a square metre of surface, at least 1 million
+        photons;       // for each instant; default: 40 a square metre of surface, at least 1 million
     int paths = 1024;  // per texel, of the reference
     std::uint64_t seed = 0;
     /// Called now and then with the stage's name and the share done, 0…1, from any thread; return false to stop.

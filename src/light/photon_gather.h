@@ -22,7 +22,7 @@ enum class PhotonArea {
 inline constexpr std::array<std::string_view, 3> kPhotonAreaNames{"octagon", "hull", "circle"};
 
 struct GatherOptions {
-    int nearest = 100;  // photons per point, at least 4
+    int nearest = 200;  // photons per point, at least 4
     PhotonArea area = PhotonArea::octagon;
     int feelers = 8;  // short rays along the surface: 0, 4 or 8
 };

@@ -307,7 +307,7 @@ class PhotonTracer {
 }  // namespace
 
 std::uint64_t default_photon_count(const Scene& scene) {
-    constexpr double kPerSquareMetre = 20.0;
+    constexpr double kPerSquareMetre = 40.0;
     return static_cast<std::uint64_t>(std::clamp(kPerSquareMetre * surface_area(scene), 1e6, 2e8));
 }
 
