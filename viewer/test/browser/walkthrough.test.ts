@@ -349,7 +349,7 @@ describe.skipIf(!chromium || !bake)('the walkthrough of the bake that was given'
         return window.skybake!.view();
       });
       expect(Math.hypot(after.position[0] - before.position[0], after.position[1] - before.position[1])).toBeGreaterThan(1);
-      const count = await page.locator('#instant option').count();
+      const count = await page.locator('#instant option:enabled').count();
       for (let i = 0; i < count; ++i) await page.evaluate((index) => window.skybake!.setInstant(index), i);
       expect((await page.evaluate(() => window.skybake!.view())).moment).toBe(count - 1);
       expect(problems).toEqual([]);
