@@ -65,8 +65,7 @@ Vec2f surface_direction(std::size_t k) {
 
 std::span<const NearPhoton> PhotonSearch::nearest(const PhotonQuery& query) {
     SKYBAKE_CHECK_LT(std::size_t{0}, query.count);
-    // What limits keep away is made up for by what lies farther: all of the way
-    // may be needed.
+    // What limits keep away is made up for by what lies farther: all of the way may be needed.
     const bool is_limited =
         std::any_of(query.limit.begin(), query.limit.end(), [](float limit) { return std::isfinite(limit); });
     const bool is_close = glm::distance(query.position, last_position_) < kClose * last_radius_;
@@ -85,9 +84,8 @@ std::span<const NearPhoton> PhotonSearch::nearest(const PhotonQuery& query) {
     return found_;
 }
 
-/// Photons of distance d ≤ r lie within 1.083 r in the point's plane and 0.02 m
-/// + 0.1 r off it: within 1.1 r + 0.01 m of the point as the patch's axes see
-/// it.
+/// Photons of distance d ≤ r lie within 1.083 r in the point's plane and 0.02 m + 0.1 r off it: within 1.1 r + 0.01 m of
+/// the point as the patch's axes see it.
 bool PhotonSearch::covers(const PhotonQuery& query, float radius) const {
     if (!(radius <= most_radius_) || radius < kMostFall * most_radius_) return false;
     if (glm::dot(query.normal, normal_) < kPatchCosine) return false;
@@ -96,8 +94,8 @@ bool PhotonSearch::covers(const PhotonQuery& query, float radius) const {
     return along + 1.1f * radius + 0.01f <= reach_ && std::abs(glm::dot(off, normal_)) <= point_height(reach_);
 }
 
-/// Off the patch's plane lie at most the point, its photons (0.02 m + 0.1 r),
-/// and what 2.5° between the planes make of 1.2 r.
+/// Off the patch's plane lie at most the point, its photons (0.02 m + 0.1 r), and what 2.5° between the planes make of
+/// 1.2 r.
 void PhotonSearch::take_patch(const PhotonQuery& query, float radius, bool is_shared) {
     most_radius_ = is_shared ? kMostGrowth * radius : radius;
     reach_ = (is_shared ? kSharedRadii : kOwnRadii) * radius + 0.02f;

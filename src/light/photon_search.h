@@ -45,8 +45,8 @@ struct PhotonQuery {
 };
 
 /// Takes a patch of the surface about the point from the map, as arrays; it serves the points that follow as long as
-/// they lie in it. So points in the order of their places cost a tenth of points at random. The answers are the same
-/// in any order. One object a thread.
+/// they lie in it: points in the order of their places cost less than points at random. The answers are the same in
+/// any order. One object a thread.
 class PhotonSearch {
   public:
     explicit PhotonSearch(const PhotonMap& map) : map_(map) {}
@@ -66,7 +66,7 @@ class PhotonSearch {
 
     const PhotonMap& map_;
 
-    // The patch: photons with positions relative to the centre, and what points they answer for.
+    // The patch: its photons, and which points they answer for.
     Vec3f center_{0.0f}, normal_{0.0f};
     SurfaceAxes axes_;
     float reach_ = 0.0f;        // along the axes, metres; 0: there is none

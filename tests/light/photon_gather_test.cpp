@@ -175,6 +175,32 @@ TEST(PhotonSearch, FindsWhatASearchThroughAllFinds) {
     }
 }
 
+/// On slopes that turn by 20°, with a dense half and a sparse one, and with limits: a search that has answered for
+/// other points finds what a new one does.
+TEST(PhotonSearch, FindsTheSameWhateverWasAskedBefore) {
+    const auto normal_at = [](float x) { return glm::normalize(Vec3f(-0.36f * std::sin(0.2f * x), 0, 1)); };
+    const auto height_at = [](float x) { return -1.8f * std::cos(0.2f * x); };
+    std::vector<Photon> photons;
+    for (std::uint64_t i = 0; i < 30000; ++i) {
+        RandomSequence random(7, i, 0);
+        const float side = random.next(), x = random.next(), y = random.next();
+        const float along = side < 0.9f ? 10.0f * x : 10.0f + 10.0f * x;
+        photons.emplace_back(Vec3f(along, 20.0f * y, height_at(along)), normal_at(along), Rgb(1.0f));
+    }
+    const PhotonMap map(photons);
+    PhotonSearch used(map);
+    for (std::uint64_t q = 0; q < 1500; ++q) {
+        RandomSequence random(9, q / 10, 0);  // ten neighbours, then elsewhere
+        const float x = 19.0f * random.next() + 0.05f * static_cast<float>(q % 10), y = 20.0f * random.next();
+        PhotonQuery query{{x, y, height_at(x)}, normal_at(x), SurfaceMetric::octagon, 40, 8.0f, no_limits()};
+        if (q % 3 == 1) query.limit[q % 8] = 0.3f;
+        PhotonSearch fresh(map);
+        const std::span<const NearPhoton> expected = fresh.nearest(query), found = used.nearest(query);
+        ASSERT_EQ(found.size(), expected.size());
+        for (std::size_t k = 0; k < found.size(); ++k) ASSERT_EQ(found[k].photon, expected[k].photon) << q;
+    }
+}
+
 TEST(PhotonCode, KeepsFluxColourAndNormal) {
     for (std::uint64_t i = 0; i < 2000; ++i) {
         RandomSequence random(8, i, 0);
