@@ -81,6 +81,30 @@ void add_light_options(CLI::App* verb, LightOptions& options) {
     verb->add_option("--albedo", options.albedo, "R,G,B or default=0.3,roof=0.4,ground=0.2 (linear, 0..1)")
         ->group(group)
         ->type_name("ALBEDO");
+    verb->add_option("--crowns", options.crowns, "of trees: transparent (light passes by the way within) or opaque")
+        ->group(group)
+        ->type_name("HOW")
+        ->check(CLI::IsMember({"transparent", "opaque"}))
+        ->capture_default_str();
+    verb->add_option("--leaves", options.leaves,
+                     "on (3 % of light passes a crown) or off (46 %); default: by --at, on from May to October, in the "
+                     "south from November to April")
+        ->group(group)
+        ->type_name("SEASON")
+        ->check(CLI::IsMember({"on", "off"}));
+    verb->add_option("--crown-transmissivity", options.crown_transmissivity,
+                     "share of light that passes a crown along its mean chord, instead of that of --leaves")
+        ->group(group)
+        ->type_name("SHARE")
+        ->check(CLI::Range(0.001, 0.999));
+}
+
+CrownSettings crown_settings_of(const LightOptions& options) {
+    CrownSettings settings;
+    if (options.crowns == "opaque") settings.treatment = CrownTreatment::opaque;
+    if (!options.leaves.empty()) settings.is_in_leaf = options.leaves == "on";
+    settings.transmissivity = options.crown_transmissivity;
+    return settings;
 }
 
 namespace {

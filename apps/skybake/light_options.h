@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "api/crown_settings.h"
 #include "base/finding.h"
 #include "base/rgb.h"
 #include "base/site.h"
@@ -27,11 +28,14 @@ struct LightOptions {
     std::string sun = "point";
     int sky_samples = 1024;  // directions per texel
     std::string albedo;
+    std::string crowns = "transparent";
+    std::string leaves;                         // "on", "off" or empty
+    std::optional<float> crown_transmissivity;  // 0…1
 };
 
 /// --at, --timezone, --site, --sun-direction, --sky and --weather.
 void add_daylight_options(CLI::App* verb, LightOptions& options);
-/// The above, and --sun, --sky-samples and --albedo.
+/// The above, and --sun, --sky-samples, --albedo and what trees are.
 void add_light_options(CLI::App* verb, LightOptions& options);
 
 /// Throws InputError for whatever is wrong with the options by themselves, so that a long run does not find it out
@@ -40,6 +44,7 @@ void check_light_options(const LightOptions& options);
 
 /// The options parsed, and the picture of an image sky read. Throws InputError.
 DaylightSettings daylight_settings_of(const LightOptions& options);
+CrownSettings crown_settings_of(const LightOptions& options);
 /// --site, or else what the city's CRS says, if anything.
 std::optional<Site> site_of(const LightOptions& options, const std::optional<Site>& site_from_crs);
 

@@ -43,6 +43,10 @@ std::vector<std::pair<std::string, std::string>> settings_of(const Options& opti
         {"sun", options.light.sun},
         {"sky-samples", std::to_string(options.light.sky_samples)},
         {"albedo", options.light.albedo},
+        {"crowns", options.light.crowns},
+        {"leaves", options.light.leaves},
+        {"crown-transmissivity",
+         options.light.crown_transmissivity ? fmt::format("{}", *options.light.crown_transmissivity) : ""},
         {"lod", options.city.lod},
         {"ground", name_of(options.city.ground)},
         {"ground-margin", fmt::format("{}", options.city.ground_margin_m)},
@@ -83,6 +87,7 @@ int run(const CommonOptions& common, const Options& options) {
     bake.daylight = daylight_settings_of(options.light);
     bake.site = site_of(options.light, std::nullopt);
     bake.albedo = parse_albedo(options.light.albedo);
+    bake.crowns = crown_settings_of(options.light);
     bake.texel_m = options.texel_m;
     bake.bake.sky_samples = options.light.sky_samples;
     const auto name = std::find(kSkySamplingNames.begin(), kSkySamplingNames.end(), options.sampling);

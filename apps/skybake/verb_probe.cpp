@@ -68,7 +68,11 @@ int run(const CommonOptions& common, const Options& options) {
         daylights_of(options.light, loaded.georeference.site, loaded.georeference.convergence_rad, loaded.findings);
     if (daylights.size() != 1)
         throw InputError("probe answers for one instant: give --at a single time, or call it once for each.");
-    Scene scene = build_scene(loaded.city, scene_options(parse_albedo(options.light.albedo), 0.5f), loaded.findings);
+    SceneOptions how = scene_options(parse_albedo(options.light.albedo), 0.5f);
+    const DaylightSettings asked = daylight_settings_of(options.light);
+    apply_crown_settings(crown_settings_of(options.light), asked,
+                         site_of_light(asked, site_of(options.light, loaded.georeference.site)), how);
+    Scene scene = build_scene(loaded.city, how, loaded.findings);
     if (indirect != Indirect::none) load_albedo_images(scene, loaded.findings, progress);
     const RayScene rays(scene);
 

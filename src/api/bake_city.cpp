@@ -96,12 +96,14 @@ BakeCityResult bake_city(const BakeCityOptions& options, Progress& progress) {
     result.findings = std::move(loaded.findings);
     result.report.seconds.read = seconds_since(begin);
 
+    const std::optional<Site> site = options.site ? options.site : loaded.georeference.site;
     const std::vector<Daylight> daylights =
-        make_daylights(options.daylight, options.site ? options.site : loaded.georeference.site,
-                       loaded.georeference.convergence_rad, result.findings);
+        make_daylights(options.daylight, site, loaded.georeference.convergence_rad, result.findings);
 
     const auto build_begin = Clock::now();
-    Scene scene = build_scene(loaded.city, scene_options(options.albedo, options.texel_m), result.findings);
+    SceneOptions how = scene_options(options.albedo, options.texel_m);
+    apply_crown_settings(options.crowns, options.daylight, site_of_light(options.daylight, site), how);
+    Scene scene = build_scene(loaded.city, how, result.findings);
     io::AttributesOf attributes = io::attributes_of(loaded.city);
     loaded.city = CityModel();  // its memory is wanted for the light
     if (scene.triangles.empty())

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "api/crown_settings.h"
 #include "api/load_city.h"
 #include "bake/bake_lightmaps.h"
 #include "bake/bake_report.h"
@@ -21,6 +22,7 @@ struct BakeCityOptions {
     DaylightSettings daylight;
     std::optional<Site> site;                         // instead of what the CRS says
     std::vector<std::pair<std::string, Rgb>> albedo;  // by the name of the surface type, and "default"
+    CrownSettings crowns;
     float texel_m = 0.5f;
     BakeOptions bake;
     std::filesystem::path lamps;        // file; empty: none, or those of `bake`

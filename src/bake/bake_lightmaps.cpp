@@ -151,7 +151,7 @@ class Baker {
         report.seconds.sun = scale * sun_clock_.seconds();
         report.seconds.lamps = scale * lamp_clock_.seconds();
         report.seconds.finish = scale * finish_clock_.seconds() + join;
-        report.rays.sky = statistics_.rays;
+        report.rays.sky = statistics_.rays + statistics_.crown_rays;
         report.rays.sun = sun_rays_;
         report.rays.lamp = lamp_statistics_.rays;
         report.lamps = options_.lamps.size();
@@ -256,7 +256,9 @@ class Baker {
             (is_projected ? bundled : others).push_back(j);
         }
         NeighbourRuns bundles(dome.directions, bundled, ShadowProjector::kBundle);
-        return {std::move(dome), std::move(bundles), std::move(others)};
+        std::optional<DirectionCones> cones;
+        if (rays_.crowns()) cones.emplace(dome);
+        return {std::move(dome), std::move(bundles), std::move(others), std::move(cones)};
     }
 
     void light_chart(ChartId id, const SkyDirections& directions) {
@@ -363,8 +365,8 @@ class Baker {
             points.extend();
         }
         SkyTileStatistics statistics;
-        const TileLight tile = light_tile(points, directions, occluders_ ? &*occluders_ : nullptr, packet,
-                                          {options_.sampling, options_.tolerance}, statistics);
+        const TileLight tile = light_tile(points, directions, occluders_ ? &*occluders_ : nullptr, rays_.crowns(),
+                                          packet, {options_.sampling, options_.tolerance}, statistics);
         for (int row = 0; row < rows; ++row) {
             for (int column = 0; column < columns; ++column) {
                 const std::size_t i = samples.index(column0 + column, row0 + row);

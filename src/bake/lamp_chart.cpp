@@ -16,6 +16,8 @@ constexpr int kTileTexels = 32;
 // |E − mean of two opposite neighbours| over the largest of the three. The mean of a parabola over a texel is off its
 // middle by a twelfth of that: 0.4 %.
 constexpr float kBend = 0.05f;
+// What neighbours' shares of a lamp's light must differ by to be a shadow's edge.
+constexpr float kEdge = 0.02f;
 // A lamp's edges count where it may give this much of a texel's light.
 constexpr float kNotable = 0.01f;
 
@@ -65,16 +67,16 @@ class LampTile {
                LampStatistics& statistics) {
         struct Shone {
             const Lamp* lamp;
-            std::vector<float> lux;  // unobstructed
-            std::vector<std::uint8_t> is_lit;
+            std::vector<float> lux;    // unobstructed
+            std::vector<float> share;  // that comes through
         };
         TargetPacket packet(rays_);
         std::vector<Shone> shone;
         std::vector<float> total(point_.size(), 0.0f);
         for (const std::uint32_t l : relevant) {
             Shone one{&tree.lamps()[l], std::vector<float>(point_.size(), 0.0f), {}};
-            one.is_lit.assign(point_.size(), 0);
-            RayBatch<TargetPacket, std::size_t, MarkLit> batch(packet, MarkLit{one.is_lit});
+            one.share.assign(point_.size(), 0.0f);
+            RayBatch<TargetPacket, std::size_t, SetShare> batch(packet, SetShare{one.share});
             packet.set_target(one.lamp->position);
             bool shines = false;
             for (std::size_t t = 0; t < point_.size(); ++t) {
@@ -87,7 +89,7 @@ class LampTile {
             batch.flush();
             statistics.rays += batch.traced;
             if (!shines) continue;
-            for (std::size_t t = 0; t < point_.size(); ++t) total[t] += one.is_lit[t] ? one.lux[t] : 0.0f;
+            for (std::size_t t = 0; t < point_.size(); ++t) total[t] += one.share[t] * one.lux[t];
             shone.push_back(std::move(one));
         }
         for (const Shone& one : shone) {
@@ -101,10 +103,10 @@ class LampTile {
                     const float largest = largest_about(one.lux, column, row);
                     if (!(largest > 0.0f)) continue;
                     ++statistics.pairs;
-                    if (is_refined(one.lux, one.is_lit, total[t], largest, column, row)) {
+                    if (is_refined(one.lux, one.share, total[t], largest, column, row)) {
                         edges.push_back({column, row, t, 0.0, 0});
-                    } else if (one.is_lit[t]) {
-                        out[samples_.index(column, row)] += one.lux[t] * colour;
+                    } else {
+                        out[samples_.index(column, row)] += one.share[t] * one.lux[t] * colour;
                     }
                 }
             }
@@ -112,17 +114,17 @@ class LampTile {
             refine(*one.lamp, packet, edges, statistics);
             for (const Edge& edge : edges) {
                 // A texel of which no subsample lies inside keeps the answer of its own point.
-                const double lux = edge.tried > 0 ? edge.lux / edge.tried
-                                                  : static_cast<double>(one.is_lit[edge.t] ? one.lux[edge.t] : 0.0f);
+                const double lux =
+                    edge.tried > 0 ? edge.lux / edge.tried : static_cast<double>(one.share[edge.t] * one.lux[edge.t]);
                 out[samples_.index(edge.column, edge.row)] += static_cast<float>(lux) * colour;
             }
         }
     }
 
   private:
-    struct MarkLit {
-        std::vector<std::uint8_t>& is_lit;
-        void operator()(std::size_t t) const { is_lit[t] = 1; }
+    struct SetShare {
+        std::vector<float>& shares;
+        void operator()(std::size_t t, float share) const { shares[t] = share; }
     };
     struct Edge {
         int column, row;
@@ -136,7 +138,9 @@ class LampTile {
     };
     struct AddLux {
         std::vector<Edge>& edges;
-        void operator()(const Subsample& s) const { edges[s.edge].lux += static_cast<double>(s.lux); }
+        void operator()(const Subsample& s, float share) const {
+            edges[s.edge].lux += static_cast<double>(share * s.lux);
+        }
     };
 
     /// On the surface below a point that was lifted off it.
@@ -182,16 +186,16 @@ class LampTile {
         return std::abs(own - 0.5f * (lux[a] + lux[b])) > kBend * std::max({own, lux[a], lux[b]});
     }
 
-    bool is_refined(const std::vector<float>& lux, const std::vector<std::uint8_t>& is_lit, float total, float largest,
+    bool is_refined(const std::vector<float>& lux, const std::vector<float>& share, float total, float largest,
                     int column, int row) const {
         if (options_.sampling == LampSampling::full) return true;
         if (options_.sampling == LampSampling::single) return false;
         if (largest <= kNotable * std::max(total, options_.cutoff_lx)) return false;
-        const std::uint8_t own = is_lit[at(column, row)];
-        bool is_edge = false, is_dark = !own;
+        const float own = share[at(column, row)];
+        bool is_edge = false, is_dark = own == 0.0f;
         for_neighborhood(column, row, [&](std::size_t t) {
-            is_edge = is_edge || is_lit[t] != own;
-            is_dark = is_dark && !is_lit[t];
+            is_edge = is_edge || std::abs(share[t] - own) > kEdge;
+            is_dark = is_dark && share[t] == 0.0f;
         });
         if (is_dark) return false;
         return is_edge || bends(lux, column, row, {1, 0}) || bends(lux, column, row, {0, 1});

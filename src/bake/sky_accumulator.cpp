@@ -130,6 +130,14 @@ void SkyAccumulator::add(std::size_t direction, std::span<const std::uint64_t> v
      weight_of_.data(), is_relief ? normal : nullptr, d);
 }
 
+void SkyAccumulator::dim(std::size_t direction, std::size_t texel, float loss) {
+    const std::size_t width = static_cast<std::size_t>(points_.width);
+    const std::size_t at = texel / width * stride_ + texel % width;
+    const float cosine =
+        nx_.empty() ? 1.0f : std::max(0.0f, glm::dot(points_.normal[texel], dome_.directions[direction]));
+    for (std::size_t k = 0; k < channels(); ++k) sums_[k][at] -= weight(k, direction) * cosine * loss;
+}
+
 TileLight SkyAccumulator::light() && {
     TileLight light;
     const std::size_t count = static_cast<std::size_t>(points_.width) * static_cast<std::size_t>(points_.height);

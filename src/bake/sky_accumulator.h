@@ -23,6 +23,9 @@ class SkyAccumulator {
     /// `visible` [row]: the covered texels that see the direction.
     void add(std::size_t direction, std::span<const std::uint64_t> visible);
 
+    /// Takes back `loss` (0…1) of what a texel that sees the direction got from it.
+    void dim(std::size_t direction, std::size_t texel, float loss);
+
     TileLight light() &&;
 
   private:

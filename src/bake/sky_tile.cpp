@@ -320,6 +320,7 @@ void TilePoints::extend() {
 
 void SkyTileStatistics::add(const SkyTileStatistics& other) {
     rays += other.rays;
+    crown_rays += other.crown_rays;
     pairs += other.pairs;
     squared_error_sum += other.squared_error_sum;
     view_factor_sum += other.view_factor_sum;
@@ -327,7 +328,8 @@ void SkyTileStatistics::add(const SkyTileStatistics& other) {
 }
 
 TileLight light_tile(const TilePoints& points, const SkyDirections& directions, const OccluderTree* occluders,
-                     DirectionPacket& packet, const SkyTileOptions& options, SkyTileStatistics& statistics) {
+                     const CrownVolume* crowns, DirectionPacket& packet, const SkyTileOptions& options,
+                     SkyTileStatistics& statistics) {
     SKYBAKE_CHECK_LE(points.width, TilePoints::kMaxSize);
     SKYBAKE_CHECK_LE(points.height, TilePoints::kMaxSize);
     const DomeSamples& dome = directions.dome;
@@ -335,15 +337,21 @@ TileLight light_tile(const TilePoints& points, const SkyDirections& directions, 
     SkyAccumulator sum(points, dome);
     std::vector<std::uint64_t> visible(points.covered.size());
     const std::size_t count = dome.size();
+    std::optional<CrownShade> shade;
+    if (crowns) shade.emplace(points, dome, *directions.cones, *crowns, packet);
     statistics.pairs += count * full.size();
     statistics.texels += full.size();
 
+    const auto add_seen = [&](std::size_t j) {
+        sum.add(j, visible);
+        if (shade) statistics.crown_rays += shade->dim(j, visible, sum);
+    };
     const auto trace_full = [&](std::size_t j) {
         packet.set_direction(dome.directions[j]);
         std::fill(visible.begin(), visible.end(), 0);
         full.trace(visible);
         statistics.rays += full.size();
-        sum.add(j, visible);
+        add_seen(j);
     };
 
     if (options.sampling == SkySampling::projected) {
@@ -353,7 +361,7 @@ TileLight light_tile(const TilePoints& points, const SkyDirections& directions, 
             projector.set_bundle(dome.directions, bundle);
             for (const std::uint32_t j : bundle) {
                 if (projector.find_visible(dome.directions[j], visible)) {
-                    sum.add(j, visible);
+                    add_seen(j);
                 } else {
                     trace_full(j);
                 }
@@ -406,7 +414,7 @@ TileLight light_tile(const TilePoints& points, const SkyDirections& directions, 
         }
         packet.set_direction(dome.directions[j]);
         statistics.rays += grid.solve(threshold_of(j), rays, visible);
-        sum.add(j, visible);
+        add_seen(j);
     }
     if (choice)
         statistics.squared_error_sum += fixed_point(choice->trial.squared_error * static_cast<double>(full.size()));

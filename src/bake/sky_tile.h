@@ -3,10 +3,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "bake/crown_shade.h"
 #include "bake/neighbour_runs.h"
 #include "bake/sky_sampling.h"
 #include "base/rgb.h"
@@ -65,12 +67,14 @@ struct SkyDirections {
     DomeSamples dome;
     NeighbourRuns bundles;                   // of those that can be projected: for SkySampling::projected, else empty
     std::vector<std::uint32_t> not_bundled;  // the others
+    std::optional<DirectionCones> cones;     // where the scene has crowns
 };
 
 /// Sums over tiles; adding is exact, so the order does not matter.
 struct SkyTileStatistics {
     std::uint64_t rays = 0;
-    std::uint64_t pairs = 0;  // (texel, direction): what full sampling would trace
+    std::uint64_t crown_rays = 0;  // through crowns alone
+    std::uint64_t pairs = 0;       // (texel, direction): what full sampling would trace
     /// Predicted squared error of the sky view factor against full sampling, and the factor itself, summed over texels
     /// in units of 2⁻³².
     std::uint64_t squared_error_sum = 0;
@@ -89,8 +93,9 @@ struct SkyTileStatistics {
 /// tell (i) which of several lattices keeps the tolerance in this tile with the fewest packets, and (ii) at which
 /// texels the error does not average out over the directions: these are traced always.
 ///
-/// `occluders` is read by projection alone.
+/// `occluders` is read by projection alone. `crowns` (may be null) dim what the texels see, however that was found.
 TileLight light_tile(const TilePoints& points, const SkyDirections& directions, const OccluderTree* occluders,
-                     DirectionPacket& packet, const SkyTileOptions& options, SkyTileStatistics& statistics);
+                     const CrownVolume* crowns, DirectionPacket& packet, const SkyTileOptions& options,
+                     SkyTileStatistics& statistics);
 
 }  // namespace skybake

@@ -17,9 +17,13 @@ namespace {
 constexpr int kRowsPerTask = 32;
 constexpr int kDiscSubsamples = 64;
 
-template <typename OnFree>
-RayBatch<DirectionPacket, std::size_t, OnFree> batch_of(DirectionPacket& packet, OnFree on_free) {
-    return {packet, on_free};
+// What neighbours must differ by, of all the light, to be an edge: a soft shadow needs no more samples than its steps
+// show.
+constexpr float kEdge = 0.02f;
+
+template <typename OnLight>
+RayBatch<DirectionPacket, std::size_t, OnLight> batch_of(DirectionPacket& packet, OnLight on_light) {
+    return {packet, on_light};
 }
 
 class SunOnChart {
@@ -43,10 +47,10 @@ class SunOnChart {
         const bool is_disc = sun_.shape == SunShape::disc;
         const std::vector<Vec3f> coarse = sun_disc_directions(sun_, is_disc ? 5 : 1);
         const std::vector<Vec3f> fine = sun_disc_directions(sun_, is_disc ? kDiscSubsamples : 1);
-        std::vector<std::uint8_t> free(count_, 0);
+        std::vector<float> free(count_, 0.0f);  // sum of the shares of light over the coarse directions
         for_rows([&](int row_begin, int row_end) { trace_coarse(coarse, row_begin, row_end, free); });
         std::vector<float> share(count_);
-        const std::uint8_t all = static_cast<std::uint8_t>(coarse.size());
+        const float all = static_cast<float>(coarse.size());
         for_rows([&](int row_begin, int row_end) { refine(fine, free, all, row_begin, row_end, share); });
         for (std::size_t i = 0; i < count_; ++i) share[i] *= cosine_[i];
         ray_count += ray_count_;
@@ -63,10 +67,9 @@ class SunOnChart {
         });
     }
 
-    void trace_coarse(const std::vector<Vec3f>& directions, int row_begin, int row_end,
-                      std::vector<std::uint8_t>& free) {
+    void trace_coarse(const std::vector<Vec3f>& directions, int row_begin, int row_end, std::vector<float>& free) {
         DirectionPacket packet(rays_);
-        RayBatch batch = batch_of(packet, [&](std::size_t i) { ++free[i]; });
+        RayBatch batch = batch_of(packet, [&](std::size_t i, float share) { free[i] += share; });
         for (const Vec3f& direction : directions) {
             packet.set_direction(direction);
             for (std::size_t i = samples_.index(0, row_begin); i < samples_.index(0, row_end); ++i) {
@@ -77,31 +80,31 @@ class SunOnChart {
         ray_count_ += batch.traced;
     }
 
-    bool has_edge(const std::vector<std::uint8_t>& free, std::uint8_t all, int column, int row) const {
-        const std::uint8_t own = free[samples_.index(column, row)];
-        if (own != 0 && own != all) return true;
+    bool has_edge(const std::vector<float>& free, float all, int column, int row) const {
+        const float own = free[samples_.index(column, row)];
+        if (own != 0.0f && own != all) return true;
         for (int y = std::max(row - 1, 0); y <= std::min(row + 1, samples_.size.y - 1); ++y) {
             for (int x = std::max(column - 1, 0); x <= std::min(column + 1, samples_.size.x - 1); ++x) {
                 const std::size_t j = samples_.index(x, y);
-                if (cosine_[j] > 0.0f && free[j] != own) return true;
+                if (cosine_[j] > 0.0f && std::abs(free[j] - own) > kEdge * all) return true;
             }
         }
         return false;
     }
 
-    void refine(const std::vector<Vec3f>& directions, const std::vector<std::uint8_t>& free, std::uint8_t all,
-                int row_begin, int row_end, std::vector<float>& share) {
+    void refine(const std::vector<Vec3f>& directions, const std::vector<float>& free, float all, int row_begin,
+                int row_end, std::vector<float>& share) {
         DirectionPacket packet(rays_);
-        std::vector<std::uint32_t> hits(samples_.index(0, row_end) - samples_.index(0, row_begin), 0);
-        std::vector<std::uint32_t> tried(hits.size(), 0);
+        std::vector<float> lit(samples_.index(0, row_end) - samples_.index(0, row_begin), 0.0f);
+        std::vector<std::uint32_t> tried(lit.size(), 0);
         const std::size_t first = samples_.index(0, row_begin);
-        RayBatch batch = batch_of(packet, [&](std::size_t i) { ++hits[i - first]; });
+        RayBatch batch = batch_of(packet, [&](std::size_t i, float part) { lit[i - first] += part; });
         std::vector<std::pair<int, int>> edges;
         for (int row = row_begin; row < row_end; ++row) {
             for (int column = 0; column < samples_.size.x; ++column) {
                 const std::size_t i = samples_.index(column, row);
                 if (cosine_[i] <= 0.0f) continue;
-                share[i] = static_cast<float>(free[i]) / static_cast<float>(all);
+                share[i] = free[i] / all;
                 if (has_edge(free, all, column, row)) edges.emplace_back(column, row);
             }
         }
@@ -122,8 +125,7 @@ class SunOnChart {
         for (const auto& [column, row] : edges) {
             const std::size_t i = samples_.index(column, row);
             // A texel of which no point lies inside keeps the answer of its own point.
-            if (tried[i - first] > 0)
-                share[i] = static_cast<float>(hits[i - first]) / static_cast<float>(tried[i - first]);
+            if (tried[i - first] > 0) share[i] = lit[i - first] / static_cast<float>(tried[i - first]);
         }
         ray_count_ += batch.traced;
     }

@@ -36,12 +36,12 @@ class TexelPoints {
     float offset_;
 };
 
-/// Collects rays and traces them sixteen at a time through `Packet::occluded`; on_free(tag) is called for each ray that
-/// nothing blocks, in the order of their coming.
-template <typename Packet, typename Tag, typename OnFree>
+/// Collects rays and traces them sixteen at a time through `Packet::visibility`; on_light(tag, share) is called for
+/// each ray that some share of the light comes through, in the order of their coming.
+template <typename Packet, typename Tag, typename OnLight>
 class RayBatch {
   public:
-    RayBatch(Packet& packet, OnFree on_free) : packet_(packet), on_free_(on_free) {}
+    RayBatch(Packet& packet, OnLight on_light) : packet_(packet), on_light_(on_light) {}
     void add(const Vec3f& p, const Tag& tag) {
         x_[count_] = p.x;
         y_[count_] = p.y;
@@ -51,9 +51,9 @@ class RayBatch {
     }
     void flush() {
         if (count_ == 0) return;
-        const std::uint32_t blocked = packet_.occluded(x_.data(), y_.data(), z_.data(), count_);
+        packet_.visibility(x_.data(), y_.data(), z_.data(), count_, share_.data());
         for (int i = 0; i < count_; ++i) {
-            if (!(blocked >> i & 1u)) on_free_(tag_[i]);
+            if (share_[i] > 0.0f) on_light_(tag_[i], share_[i]);
         }
         traced += static_cast<std::uint64_t>(count_);
         count_ = 0;
@@ -62,8 +62,8 @@ class RayBatch {
 
   private:
     Packet& packet_;
-    OnFree on_free_;
-    std::array<float, RayScene::kPacketSize> x_, y_, z_;
+    OnLight on_light_;
+    std::array<float, RayScene::kPacketSize> x_, y_, z_, share_;
     std::array<Tag, RayScene::kPacketSize> tag_;
     int count_ = 0;
 };

@@ -98,6 +98,8 @@ inline constexpr std::array kFindingCodes{
     FindingCode{"SB217", Severity::warning, "two files show the same object",
                 "Nothing to do: the one of the earlier file is used."},
 
+    FindingCode{"SB218", Severity::info, "plant is no closed body",
+                "Nothing to do, unless the depth of its shadow matters: then model the crown as a closed solid."},
     FindingCode{"SB301", Severity::info, "geographic coordinates were projected to metres",
                 "Nothing to do: results are in metres about the city's centre."},
     FindingCode{"SB302", Severity::info, "coordinates that are no true metres were projected to metres",

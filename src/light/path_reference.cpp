@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "light/flight.h"
 
 namespace skybake {
 
@@ -34,9 +35,9 @@ PathReference::PathReference(const LightSources& sources, const Scene& scene, co
 /// One sample of the indirect irradiance.
 Rgb PathReference::sample(const ReceiverPoint& point, RandomSequence& random) const {
     Rgb sum(0.0f), throughput(1.0f);
-    auto hit = next_hit(point.position, point.normal, random).hit;
-    for (int bounce = 1; hit; ++bounce) {
-        const SurfacePoint surface = surface_point(scene_, *hit);
+    std::optional<SurfacePoint> end = next_hit({point.position, point.normal, Rgb(0.0f), false}, random).end;
+    for (int bounce = 1; end; ++bounce) {
+        const SurfacePoint surface = *end;
         throughput *= surface.albedo;
         if (!(std::max({throughput.x, throughput.y, throughput.z}) > 0.0f)) break;
         sum += throughput * direct_irradiance(surface, random);
@@ -45,13 +46,13 @@ Rgb PathReference::sample(const ReceiverPoint& point, RandomSequence& random) co
             if (random.next() >= survival) break;
             throughput /= survival;
         }
-        const Step step = next_hit(surface.position, surface.normal, random);
-        if (!step.hit) {
-            if (has_sky()) sum += throughput * escaped(step.direction, surface.normal);
+        const Step step = next_hit(surface, random);
+        if (!step.end) {
+            if (has_sky()) sum += throughput * escaped(surface, step.direction);
             break;
         }
         if (bounce == options_.bounces) break;
-        hit = step.hit;
+        end = step.end;
     }
     return sum;
 }
@@ -60,10 +61,10 @@ Vec3f PathReference::lifted(const Vec3f& position, const Vec3f& normal) const {
     return position + rays_.surface_offset() * normal;
 }
 
-PathReference::Step PathReference::next_hit(const Vec3f& position, const Vec3f& normal, RandomSequence& random) const {
+PathReference::Step PathReference::next_hit(const SurfacePoint& surface, RandomSequence& random) const {
     const float u = random.next(), v = random.next();
-    const Vec3f direction = square_to_cosine_hemisphere(normal, u, v);
-    return {direction, rays_.first_hit(lifted(position, normal), direction)};
+    const Vec3f direction = surface.reflected_direction(u, v);
+    return {direction, Flight(scene_, rays_).end(lifted(surface.position, surface.normal), direction, random)};
 }
 
 /// Irradiance by sun, lamps and sky; of the sky the share that the balance heuristic leaves to this density.
@@ -74,17 +75,18 @@ Rgb PathReference::direct_irradiance(const SurfacePoint& surface, RandomSequence
     if (has_beam(sun)) {
         const float u = random.next(), v = random.next();
         const Vec3f direction = sample_sun(sun, u, v);
-        const float cosine = glm::dot(surface.normal, direction);
-        if (cosine > 0.0f && !rays_.is_occluded(origin, direction)) sum += cosine * sun.normal_illuminance;
+        const float cosine = surface.cosine(direction);
+        if (cosine > 0.0f) sum += cosine * rays_.visibility(origin, direction) * sun.normal_illuminance;
     }
     if (!sources_.lamps.empty()) sum += lamp_irradiance(surface, origin, random.next());
     if (has_sky()) {
         const float u = random.next(), v = random.next();
         const SkyDistribution::Sample sample = sky_.sample(u, v);
-        const float cosine = glm::dot(surface.normal, sample.direction);
-        if (cosine > 0.0f && !rays_.is_occluded(origin, sample.direction)) {
+        const float cosine = surface.cosine(sample.direction);
+        if (cosine > 0.0f) {
             const float density = sample.pdf_solid_angle + square_to_cosine_hemisphere_pdf(cosine);
-            sum += sky_luminance(sources_.daylight.sky, sample.direction) * (cosine / density);
+            sum += sky_luminance(sources_.daylight.sky, sample.direction) *
+                   (cosine * rays_.visibility(origin, sample.direction) / density);
         }
     }
     return sum;
@@ -92,8 +94,8 @@ Rgb PathReference::direct_irradiance(const SurfacePoint& surface, RandomSequence
 
 /// The other share of the sky: a ray of the cosine's density that left the scene. The estimate π L times the
 /// weight.
-Rgb PathReference::escaped(const Vec3f& direction, const Vec3f& normal) const {
-    const float cosine = glm::dot(normal, direction);
+Rgb PathReference::escaped(const SurfacePoint& surface, const Vec3f& direction) const {
+    const float cosine = surface.cosine(direction);
     if (cosine <= 0.0f || direction.z < 0.0f) return Rgb(0.0f);
     const float density = sky_.pdf(direction) + square_to_cosine_hemisphere_pdf(cosine);
     return sky_luminance(sources_.daylight.sky, direction) * (cosine / density);
@@ -101,19 +103,23 @@ Rgb PathReference::escaped(const Vec3f& direction, const Vec3f& normal) const {
 
 /// One lamp, chosen by what it would give if nothing stood in the way.
 Rgb PathReference::lamp_irradiance(const SurfacePoint& surface, const Vec3f& origin, float choice) const {
+    const auto unobstructed = [&](const Lamp& lamp) {
+        if (!surface.is_leaf) return unobstructed_irradiance(lamp, origin, surface.normal);
+        const Vec3f to_lamp = glm::normalize(lamp.position - origin);
+        return surface.cosine(to_lamp) * unobstructed_irradiance(lamp, origin, to_lamp);
+    };
     double total = 0.0;
-    for (const Lamp& lamp : sources_.lamps)
-        total += static_cast<double>(luminance(unobstructed_irradiance(lamp, origin, surface.normal)));
+    for (const Lamp& lamp : sources_.lamps) total += static_cast<double>(luminance(unobstructed(lamp)));
     double wanted = static_cast<double>(choice) * total;
     for (const Lamp& lamp : sources_.lamps) {
-        const Rgb irradiance = unobstructed_irradiance(lamp, origin, surface.normal);
+        const Rgb irradiance = unobstructed(lamp);
         const double share = static_cast<double>(luminance(irradiance));
         wanted -= share;
         if (!(share > 0.0) || wanted >= 0.0) continue;
         const Vec3f to_lamp = lamp.position - origin;
         const float distance = glm::length(to_lamp);
-        if (rays_.is_occluded(origin, to_lamp / distance, distance)) return Rgb(0.0f);
-        return irradiance * static_cast<float>(total / share);
+        return irradiance *
+               (rays_.visibility(origin, to_lamp / distance, distance) * static_cast<float>(total / share));
     }
     return Rgb(0.0f);
 }

@@ -53,7 +53,7 @@ class PathReference {
     };
     struct Step {
         Vec3f direction{0.0f};
-        std::optional<Hit> hit;
+        std::optional<SurfacePoint> end;
     };
 
     int run_count() const;
@@ -62,9 +62,9 @@ class PathReference {
     Rgb sample(const ReceiverPoint& point, RandomSequence& random) const;
     bool has_sky() const { return sky_.total() > 0.0; }
     Vec3f lifted(const Vec3f& position, const Vec3f& normal) const;
-    Step next_hit(const Vec3f& position, const Vec3f& normal, RandomSequence& random) const;
+    Step next_hit(const SurfacePoint& surface, RandomSequence& random) const;
     Rgb direct_irradiance(const SurfacePoint& surface, RandomSequence& random) const;
-    Rgb escaped(const Vec3f& direction, const Vec3f& normal) const;
+    Rgb escaped(const SurfacePoint& surface, const Vec3f& direction) const;
     Rgb lamp_irradiance(const SurfacePoint& surface, const Vec3f& origin, float choice) const;
 
     const LightSources& sources_;

@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "base/hash_rng.h"
 #include "light/cell_distribution.h"
+#include "light/flight.h"
 #include "light/sky_distribution.h"
 #include "light/surfaces.h"
 
@@ -259,15 +260,20 @@ class PhotonTracer {
         Rgb flux = departure.flux;
         double lumen = static_cast<double>(luminance(flux));
         Vec3f origin = departure.origin, direction = departure.direction;
+        Flight flight(scene_, rays_);
         for (int reflections = 0;; ++reflections) {
-            const auto hit = rays_.first_hit(origin, direction);
+            const auto end = flight.end(origin, direction, random);
             ++ledger.rays;
-            if (!hit) {
+            if (reflections > 0) {
+                for (const SurfacePoint& crown : flight.passed())
+                    stored.emplace_back(crown.position, crown.normal, flux);
+            }
+            if (!end) {
                 ledger.escaped += lumen;
                 return;
             }
-            const SurfacePoint surface = surface_point(scene_, *hit);
-            if (reflections > 0) stored.emplace_back(surface.position, surface.normal, flux);
+            const SurfacePoint& surface = *end;
+            if (reflections > 0 && !surface.is_leaf) stored.emplace_back(surface.position, surface.normal, flux);
             if (reflections == options_.bounces) {
                 ledger.at_limit += lumen;
                 return;
@@ -288,7 +294,7 @@ class PhotonTracer {
                 flux = reflected / survival;
             }
             const float u = random.next(), v = random.next();
-            direction = square_to_cosine_hemisphere(surface.normal, u, v);
+            direction = surface.reflected_direction(u, v);
             origin = surface.position + rays_.surface_offset() * surface.normal;
         }
     }

@@ -34,7 +34,7 @@ std::vector<PointLight> light_points(std::span<const ReceiverPoint> points, cons
         tbb::parallel_for(std::size_t{0}, (members.size() + kPacket - 1) / kPacket, [&](std::size_t p) {
             const std::size_t begin = p * kPacket, end = std::min(begin + kPacket, members.size());
             const int count = static_cast<int>(end - begin);
-            float x[kPacket], y[kPacket], z[kPacket];
+            float x[kPacket], y[kPacket], z[kPacket], share[kPacket];
             for (std::size_t i = begin; i < end; ++i) {
                 const Vec3f origin = points[members[i]].position + rays.surface_offset() * normal;
                 x[i - begin] = origin.x;
@@ -44,21 +44,18 @@ std::vector<PointLight> light_points(std::span<const ReceiverPoint> points, cons
             DirectionPacket packet(rays);
             for (std::size_t j = 0; j < dome.size(); ++j) {
                 packet.set_direction(dome.directions[j]);
-                const std::uint32_t blocked = packet.occluded(x, y, z, count);
+                packet.visibility(x, y, z, count, share);
                 for (std::size_t i = begin; i < end; ++i) {
-                    if (blocked >> (i - begin) & 1u) continue;
-                    light[members[i]].sky += dome.weights[instant][j];
-                    light[members[i]].sky_view_factor += dome.view_factor_weight[j];
+                    light[members[i]].sky += share[i - begin] * dome.weights[instant][j];
+                    light[members[i]].sky_view_factor += share[i - begin] * dome.view_factor_weight[j];
                 }
             }
             if (!has_sun || cosine <= 0.0f) return;
             for (const Vec3f& direction : sun_directions) {
                 packet.set_direction(direction);
-                const std::uint32_t blocked = packet.occluded(x, y, z, count);
-                for (std::size_t i = begin; i < end; ++i) {
-                    if (!(blocked >> (i - begin) & 1u))
-                        light[members[i]].sun_visible += 1.0f / static_cast<float>(sun_directions.size());
-                }
+                packet.visibility(x, y, z, count, share);
+                for (std::size_t i = begin; i < end; ++i)
+                    light[members[i]].sun_visible += share[i - begin] / static_cast<float>(sun_directions.size());
             }
             for (std::size_t i = begin; i < end; ++i)
                 light[members[i]].sun = light[members[i]].sun_visible * cosine * sun.normal_illuminance;
@@ -78,7 +75,7 @@ std::vector<Rgb> light_points_by_lamps(std::span<const ReceiverPoint> points, st
             if (!(luminance(irradiance) > 0.0f)) continue;
             const Vec3f to_lamp = lamp.position - origin;
             const float distance = glm::length(to_lamp);
-            if (!rays.is_occluded(origin, to_lamp / distance, distance)) light[i] += irradiance;
+            light[i] += rays.visibility(origin, to_lamp / distance, distance) * irradiance;
         }
     });
     return light;

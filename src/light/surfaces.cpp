@@ -28,6 +28,17 @@ SurfacePoint surface_point(const Scene& scene, const Hit& hit) {
     return point;
 }
 
+float SurfacePoint::cosine(const Vec3f& direction) const {
+    return is_leaf ? 0.25f : std::max(0.0f, glm::dot(normal, direction));
+}
+
+Vec3f SurfacePoint::reflected_direction(float u, float v) const {
+    if (!is_leaf) return square_to_cosine_hemisphere(normal, u, v);
+    const float z = 1.0f - 2.0f * u, r = std::sqrt(std::max(0.0f, 1.0f - z * z));
+    const float azimuth = static_cast<float>(2.0 * kPi) * v;
+    return {r * std::cos(azimuth), r * std::sin(azimuth), z};
+}
+
 Vec3f square_to_cosine_hemisphere(const Vec3f& normal, float u, float v) {
     const float a = 2.0f * u - 1.0f, b = 2.0f * v - 1.0f;
     constexpr float kQuarter = static_cast<float>(kPi / 4.0);

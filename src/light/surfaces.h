@@ -10,11 +10,19 @@
 
 namespace skybake {
 
-/// A point that light meets. Surfaces are Lambertian and reflect on both sides alike.
+/// A point that light meets. Surfaces are Lambertian and reflect on both sides alike. A leaf within a crown scatters to
+/// all sides alike: its light is what it takes in of the irradiance from all around, a quarter of the sum over
+/// directions, as the cosine's mean over all of a small body's faces has it.
 struct SurfacePoint {
     Vec3f position{0.0f};  // on the surface (not lifted off it), local metres
-    Vec3f normal{0.0f};    // unit, of the triangle, on the side that the ray came from
-    Rgb albedo{0.0f};      // linear, 0…1
+    Vec3f normal{0.0f};    // unit, of the triangle, on the side that the ray came from; 0 for a leaf
+    Rgb albedo{0.0f};      // linear, 0…1; of a leaf: of a single scattering
+    bool is_leaf = false;
+
+    /// What irradiance from the unit `direction` counts by: the cosine, or a leaf's quarter; not below 0.
+    float cosine(const Vec3f& direction) const;
+    /// A direction that reflected light takes: of density cosine / π (sr⁻¹); u and v in [0, 1).
+    Vec3f reflected_direction(float u, float v) const;
 };
 
 /// The point that a ray hit, with the texture's albedo there (Scene::albedo_images), or the material's. The position

@@ -7,6 +7,7 @@
 #include "base/check.h"
 #include "base/finding.h"
 #include "city/triangulate.h"
+#include "scene/find_crowns.h"
 #include "scene/scene.h"
 
 namespace skybake {
@@ -191,6 +192,8 @@ Scene build_scene(const CityModel& city, const SceneOptions& options, FindingLog
         }
     }
     scene.materials = std::move(materials.materials);
+    if (options.crowns == CrownTreatment::transparent)
+        scene.crowns = find_crowns(scene, options.crown_transmissivity, findings);
     return scene;
 }
 

@@ -62,6 +62,8 @@ std::vector<Quad> quads_of(const Scene& scene) {
     };
     std::vector<Quad> quads;
     std::vector<bool> is_taken(scene.triangles.size(), false);
+    for (const Crown& crown : scene.crowns)  // what dims does not hide
+        std::fill_n(is_taken.begin() + crown.first_triangle, crown.triangle_count, true);
     std::vector<Edge> edges;
     for (const Face& face : scene.faces) {
         edges.clear();

@@ -28,6 +28,7 @@ class OccluderTree {
         float corner[4][3][kWidth];
     };
 
+    /// Without the crowns.
     explicit OccluderTree(const Scene& scene);
 
     const std::vector<Node>& nodes() const { return nodes_; }

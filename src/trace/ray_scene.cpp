@@ -10,6 +10,7 @@
 #include <string>
 
 #include "base/check.h"
+#include "scene/find_crowns.h"
 
 namespace skybake {
 
@@ -17,8 +18,10 @@ struct RayScene::Embree {
     RTCDevice device = nullptr;
     RTCScene scene = nullptr;
     float surface_offset = 1e-3f;
+    std::unique_ptr<CrownVolume> crowns;  // null: none
 
     ~Embree() {
+        crowns.reset();
         if (scene) rtcReleaseScene(scene);
         if (device) rtcReleaseDevice(device);
     }
@@ -31,6 +34,13 @@ RTCIntersectContext coherent_context() {
     rtcInitIntersectContext(&context);
     context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     return context;
+}
+
+void check_device(RTCDevice device) {
+    const RTCError error = rtcGetDeviceError(device);
+    if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
+    if (error != RTC_ERROR_NONE)
+        throw std::runtime_error("Embree cannot build its hierarchy: error " + std::to_string(error));
 }
 
 RTCRay single_ray(const Vec3f& origin, const Vec3f& direction, float distance) {
@@ -49,9 +59,17 @@ RTCRay single_ray(const Vec3f& origin, const Vec3f& direction, float distance) {
 
 }  // namespace
 
-RayScene::RayScene(const Scene& scene) : RayScene(std::span(scene.triangles)) {}
+RayScene::RayScene(const Scene& scene) : RayScene(scene.triangles, crown_of_triangles(scene)) {
+    if (scene.crowns.empty()) return;
+    embree_->crowns = std::make_unique<CrownVolume>(embree_->device, scene);
+    check_device(embree_->device);
+}
 
-RayScene::RayScene(std::span<const std::array<Vec3f, 3>> triangles) : embree_(std::make_unique<Embree>()) {
+RayScene::RayScene(std::span<const std::array<Vec3f, 3>> triangles) : RayScene(triangles, {}) {}
+
+/// `crown_of` [triangle] or empty: what belongs to a crown is left out.
+RayScene::RayScene(std::span<const std::array<Vec3f, 3>> triangles, const std::vector<std::uint32_t>& crown_of)
+    : embree_(std::make_unique<Embree>()) {
     embree_->device = rtcNewDevice(nullptr);
     if (!embree_->device) throw std::runtime_error("Embree cannot start on this processor");
     embree_->scene = rtcNewScene(embree_->device);
@@ -68,16 +86,18 @@ RayScene::RayScene(std::span<const std::array<Vec3f, 3>> triangles) : embree_(st
             geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), count));
         if (!vertices || !indices) throw std::bad_alloc();
         std::memcpy(vertices, triangles.data(), triangles.size_bytes());
-        for (std::size_t i = 0; i < 3 * count; ++i) indices[i] = static_cast<std::uint32_t>(i);
+        for (std::size_t i = 0; i < count; ++i) {
+            // A triangle with one corner has no area: no ray hits it, and those after it keep their numbers.
+            const bool is_left_out = !crown_of.empty() && crown_of[i] != kNoCrown;
+            for (std::size_t k = 0; k < 3; ++k)
+                indices[3 * i + k] = static_cast<std::uint32_t>(3 * i + (is_left_out ? 0 : k));
+        }
         rtcCommitGeometry(geometry);
         rtcAttachGeometry(embree_->scene, geometry);
         rtcReleaseGeometry(geometry);
     }
     rtcCommitScene(embree_->scene);
-    const RTCError error = rtcGetDeviceError(embree_->device);
-    if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
-    if (error != RTC_ERROR_NONE)
-        throw std::runtime_error("Embree cannot build its hierarchy: error " + std::to_string(error));
+    check_device(embree_->device);
 
     float reach = 1.0f;
     for (const std::array<Vec3f, 3>& triangle : triangles) {
@@ -98,6 +118,15 @@ bool RayScene::is_occluded(const Vec3f& origin, const Vec3f& direction, float di
     RTCRay ray = single_ray(origin, direction, distance);
     rtcOccluded1(embree_->scene, &context, &ray);
     return ray.tfar < 0.0f;
+}
+
+float RayScene::visibility(const Vec3f& origin, const Vec3f& direction, float distance) const {
+    if (is_occluded(origin, direction, distance)) return 0.0f;
+    return embree_->crowns ? std::exp(-embree_->crowns->optical_depth(origin, direction, distance)) : 1.0f;
+}
+
+const CrownVolume* RayScene::crowns() const {
+    return embree_->crowns.get();
 }
 
 std::optional<Hit> RayScene::first_hit(const Vec3f& origin, const Vec3f& direction) const {
@@ -159,6 +188,14 @@ struct RayPacket {
     }
 };
 
+namespace {
+
+void put_hidden(std::uint32_t blocked, int count, float* share) {
+    for (int i = 0; i < count; ++i) share[i] = blocked >> i & 1u ? 0.0f : 1.0f;
+}
+
+}  // namespace
+
 DirectionPacket::DirectionPacket(const RayScene& scene) : scene_(scene), rays_(std::make_unique<RayPacket>()) {}
 DirectionPacket::~DirectionPacket() = default;
 
@@ -174,6 +211,24 @@ std::uint32_t DirectionPacket::occluded(const float* x, const float* y, const fl
     return rays_->occluded(scene_.embree_->scene, distance_, count);
 }
 
+void DirectionPacket::visibility(const float* x, const float* y, const float* z, int count, float* share) {
+    const std::uint32_t blocked = occluded(x, y, z, count);
+    if (!scene_.crowns()) return put_hidden(blocked, count, share);
+    transmittance(x, y, z, ~blocked, count, share);
+    for (int i = 0; i < count; ++i) share[i] = blocked >> i & 1u ? 0.0f : share[i];
+}
+
+void DirectionPacket::transmittance(const float* x, const float* y, const float* z, std::uint32_t wanted, int count,
+                                    float* share) {
+    std::fill_n(share, count, 1.0f);
+    if (!scene_.crowns()) return;
+    float distance[RayScene::kPacketSize], depth[RayScene::kPacketSize];
+    std::fill_n(distance, RayScene::kPacketSize, distance_);
+    const RTCRay16& rays = rays_->rays;
+    scene_.crowns()->optical_depth({x, y, z, rays.dir_x, rays.dir_y, rays.dir_z, distance}, wanted, count, depth);
+    for (int i = 0; i < count; ++i) share[i] = depth[i] > 0.0f ? std::exp(-depth[i]) : 1.0f;
+}
+
 TargetPacket::TargetPacket(const RayScene& scene) : scene_(scene), rays_(std::make_unique<RayPacket>()) {}
 TargetPacket::~TargetPacket() = default;
 
@@ -185,6 +240,22 @@ std::uint32_t TargetPacket::occluded(const float* x, const float* y, const float
         rays_->rays.dir_z[i] = target_.z - z[i];
     }
     return rays_->occluded(scene_.embree_->scene, 1.0f, count);
+}
+
+void TargetPacket::visibility(const float* x, const float* y, const float* z, int count, float* share) {
+    const std::uint32_t blocked = occluded(x, y, z, count);
+    put_hidden(blocked, count, share);
+    if (!scene_.crowns()) return;
+    RTCRay16& rays = rays_->rays;
+    float distance[RayScene::kPacketSize], depth[RayScene::kPacketSize];
+    for (int i = 0; i < count; ++i) {
+        distance[i] = glm::length(Vec3f(rays.dir_x[i], rays.dir_y[i], rays.dir_z[i]));
+        rays.dir_x[i] /= distance[i];
+        rays.dir_y[i] /= distance[i];
+        rays.dir_z[i] /= distance[i];
+    }
+    scene_.crowns()->optical_depth({x, y, z, rays.dir_x, rays.dir_y, rays.dir_z, distance}, ~blocked, count, depth);
+    for (int i = 0; i < count; ++i) share[i] *= std::exp(-depth[i]);
 }
 
 }  // namespace skybake

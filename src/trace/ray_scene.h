@@ -10,6 +10,7 @@
 
 #include "base/vec.h"
 #include "scene/scene.h"
+#include "trace/crown_volume.h"
 
 namespace skybake {
 
@@ -22,7 +23,7 @@ struct Hit {
 };
 
 /// The bounding volume hierarchy over a scene's triangles. Read-only after construction: any number of threads may
-/// trace. Triangles block light from both sides.
+/// trace. Triangles block light from both sides; those of Scene::crowns block none of it, but dim it.
 class RayScene {
   public:
     static constexpr int kPacketSize = 16;
@@ -37,7 +38,14 @@ class RayScene {
     bool is_occluded(const Vec3f& origin, const Vec3f& direction,
                      float distance = std::numeric_limits<float>::infinity()) const;
 
-    /// The nearest hit, or none.
+    /// The share of light that comes through from there: 0 behind a surface, exp(−optical depth) behind crowns, else 1.
+    float visibility(const Vec3f& origin, const Vec3f& direction,
+                     float distance = std::numeric_limits<float>::infinity()) const;
+
+    /// The scene's crowns; null without any.
+    const CrownVolume* crowns() const;
+
+    /// The nearest hit of a surface that is no crown's, or none.
     std::optional<Hit> first_hit(const Vec3f& origin, const Vec3f& direction) const;
 
     /// How far ray origins are lifted off their surface, metres: well above the rounding of float coordinates of this
@@ -51,6 +59,8 @@ class RayScene {
     friend class DirectionPacket;
     friend class TargetPacket;
     struct Embree;
+    RayScene(std::span<const std::array<Vec3f, 3>> triangles, const std::vector<std::uint32_t>& crown_of);
+
     std::unique_ptr<Embree> embree_;
 };
 
@@ -70,6 +80,12 @@ class DirectionPacket {
     /// traced and read.
     std::uint32_t occluded(const float* x, const float* y, const float* z, int count);
 
+    /// share[i] of the light comes through to (x[i], y[i], z[i]), as RayScene::visibility.
+    void visibility(const float* x, const float* y, const float* z, int count, float* share);
+
+    /// What crowns leave of it: exp(−optical depth), for those of the points that are set in `wanted`; else 1.
+    void transmittance(const float* x, const float* y, const float* z, std::uint32_t wanted, int count, float* share);
+
   private:
     const RayScene& scene_;
     std::unique_ptr<RayPacket> rays_;
@@ -87,6 +103,9 @@ class TargetPacket {
     /// Bit i of the result is set when something stands between (x[i], y[i], z[i]) and the target; only the first
     /// `count` ≤ 16 are traced and read.
     std::uint32_t occluded(const float* x, const float* y, const float* z, int count);
+
+    /// share[i] of the target's light comes through to (x[i], y[i], z[i]), as RayScene::visibility.
+    void visibility(const float* x, const float* y, const float* z, int count, float* share);
 
   private:
     const RayScene& scene_;
