@@ -6,8 +6,9 @@ import { formatInstant, utcOf } from './core/moment';
 import { text } from './core/text';
 import { language } from './core/text/language';
 import { sceneToWorld, worldToScene, type Vec3 } from './core/units';
+import type { Picked } from './three/bake_pair';
 import { reflectanceAt } from './three/reflectance';
-import type { Picked, Viewer } from './three/viewer';
+import type { Viewer } from './three/viewer';
 import { element } from './ui/element';
 import { MeasurePanel, type Reading } from './ui/measure_panel';
 import { sunChart } from './ui/sun_chart';
@@ -63,7 +64,7 @@ export class Measuring {
       return;
     }
     const question = ++this.question;
-    this.place = this.viewer.worldOf(picked);
+    this.place = picked.world;
     this.moveMarker();
     this.panel.showReading(null, isByKey);
     try {
@@ -131,8 +132,8 @@ export class Measuring {
       parts: light.parts.map(({ part, lx }) => ({ name: text.partNames[part], lx })),
       facts: [
         ...(twinLight === null ? [] : [
-          { name: this.viewer.isOther(picked) ? 'A' : 'B', value: text.measure.lux(twinLight) },
-          { name: text.measure.change, value: text.measure.signedLux((this.viewer.isOther(picked) ? 1 : -1) * (light.total - twinLight)) },
+          { name: picked.isOther ? 'A' : 'B', value: text.measure.lux(twinLight) },
+          { name: text.measure.change, value: text.measure.signedLux((picked.isOther ? 1 : -1) * (light.total - twinLight)) },
         ]),
         ...factsOf(owner),
         { name: text.measure.skyView, value: light.skyViewFactor.toLocaleString(language, { maximumFractionDigits: 3 }) },
