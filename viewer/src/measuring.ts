@@ -110,8 +110,8 @@ export class Measuring {
     const { baked: { bake, moment }, hit, surface } = picked;
     const { manifest } = bake;
     const instant = Math.round(moment);
-    const { page, column, row, width, height } = texelOf(picked);
-    const middle = sceneToWorld(surface.pointAt(new THREE.Vector2((column + 0.5) / width, (row + 0.5) / height)).toArray());
+    const { page, column, row } = texelOf(picked);
+    const middle = sceneToWorld(surface.pointAt(new THREE.Vector2(column + 0.5, row + 0.5)).toArray());
     const normal = sceneToWorld(hit.normal.toArray());
     const twin = this.viewer.pickTwin(picked);
     const [light, objects, twinLight] = await Promise.all([
@@ -188,11 +188,9 @@ export class Measuring {
 }
 
 /** The texel of the lightmap that holds the place. */
-function texelOf({ baked: { bake }, surface }: Picked): { page: number; column: number; row: number; width: number; height: number } {
-  const page = Number((surface.mesh.userData as { page?: number }).page ?? 0);
+function texelOf({ baked: { bake }, surface: { page, texel } }: Picked): { page: number; column: number; row: number } {
   const { width, height } = bake.manifest.pages[page] ?? { width: 1, height: 1 };
-  const column = Math.min(width - 1, Math.floor(surface.lightUv.x * width));
-  return { page, column, row: Math.min(height - 1, Math.floor(surface.lightUv.y * height)), width, height };
+  return { page, column: Math.min(width - 1, Math.floor(texel.x)), row: Math.min(height - 1, Math.floor(texel.y)) };
 }
 
 async function lightAt(picked: Picked): Promise<number> {

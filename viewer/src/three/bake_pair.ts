@@ -50,11 +50,22 @@ export class BakePair {
   }
 
   /** As BakedScene.showMoment(), with the other bake's instant that is nearest in time. */
-  async showMoment(moment: number, onBytes: OnBytes): Promise<boolean> {
+  async showMoment(moment: number, eye: THREE.Vector3, onBytes: OnBytes): Promise<boolean> {
     const { first, second } = this;
-    const shown = [first.showMoment(moment, onBytes)];
-    if (second) shown.push(second.showMoment(momentOfOther(first.bake.manifest.instants, second.bake.manifest.instants, moment), onBytes));
+    const shown = [first.showMoment(moment, eye, onBytes)];
+    if (second) shown.push(second.showMoment(this.otherMoment(second, moment), eye.clone().add(this.shift), onBytes));
     return !(await Promise.all(shown)).includes(false);
+  }
+
+  /** Download size of what a moment still needs; null when a manifest does not list it. */
+  bytesMissingFor(moment: number): number | null {
+    const own = this.first.bytesMissingFor(moment);
+    const others = this.second ? this.second.bytesMissingFor(this.otherMoment(this.second, moment)) : 0;
+    return own === null || others === null ? null : own + others;
+  }
+
+  private otherMoment(second: BakedScene, moment: number): number {
+    return momentOfOther(this.first.bake.manifest.instants, second.bake.manifest.instants, moment);
   }
 
   /** @param width of the canvas, CSS pixels, like `height` */

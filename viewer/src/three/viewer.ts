@@ -8,6 +8,7 @@ import type { Mode, Picture } from '../core/pictures';
 import { worldToScene, type Vec3 } from '../core/units';
 import { BakedScene } from './baked_scene';
 import { BakePair, type Picked } from './bake_pair';
+import { LayerPainter } from './layers';
 import { finishDrawing, pngOf, readBlock } from './read_back';
 import { statsOf, type ViewerStats } from './stats';
 import { Steering } from './steering';
@@ -26,6 +27,7 @@ export class Viewer {
   private readonly renderer: THREE.WebGLRenderer;
   private readonly camera = new THREE.PerspectiveCamera(60, 1, 0.2, 1000);
   private readonly resizeObserver: ResizeObserver;
+  private readonly painter: LayerPainter;
   private steering: Steering | null = null;
   private pair: BakePair | null = null;
   private partsOff: readonly LightPart[] = [];
@@ -48,6 +50,7 @@ export class Viewer {
     this.renderer.toneMapping = THREE.AgXToneMapping;
     this.renderer.toneMappingExposure = 1; // the shaders multiply by uExposure themselves
     this.renderer.info.autoReset = false; // a frame may be two pictures
+    this.painter = new LayerPainter(this.renderer);
     canvas.addEventListener('webglcontextlost', (event) => {
       event.preventDefault();
       options.onContextLost();
@@ -59,15 +62,19 @@ export class Viewer {
 
   /** Loads the city; the light comes with showMoment(). Throws LoadError. */
   async open(bake: Bake, onBytes: OnBytes): Promise<void> {
-    const baked = await BakedScene.open(bake, this.renderer.capabilities.getMaxAnisotropy(), onBytes);
+    const baked = await this.openScene(bake, onBytes);
     this.pair = new BakePair(baked);
     this.steering = new Steering(baked, this.camera, this.canvas, () => this.changed());
+  }
+
+  private openScene(bake: Bake, onBytes: OnBytes): Promise<BakedScene> {
+    return BakedScene.open(bake, this.painter, this.renderer.capabilities.getMaxAnisotropy(), onBytes, () => this.changed());
   }
 
   /** Loads a second bake to compare with. Throws LoadError. */
   async openOther(bake: Bake, onBytes: OnBytes): Promise<void> {
     if (!this.pair) throw new Error('no city is open');
-    this.pair.join(await BakedScene.open(bake, this.renderer.capabilities.getMaxAnisotropy(), onBytes));
+    this.pair.join(await this.openScene(bake, onBytes));
   }
 
   /** What is shown of two bakes, and where the divider stands, 0…1 from the left. */
@@ -77,12 +84,13 @@ export class Viewer {
   }
 
   /**
-   * Loads and shows an instant, or the cross-fade of two neighbours for a moment between them. A later call overtakes an earlier one.
+   * Loads and shows an instant, or the cross-fade of two neighbours for a moment between them; the very first is on show before all of its
+   * pages are there. A later call overtakes an earlier one.
    * Returns false when it was overtaken. Throws LoadError.
    */
   async showMoment(moment: number, onBytes: OnBytes): Promise<boolean> {
     if (!this.pair) throw new Error('no city is open');
-    if (!(await this.pair.showMoment(moment, onBytes))) return false;
+    if (!(await this.pair.showMoment(moment, this.camera.position, onBytes))) return false;
     this.applyDisplay();
     return true;
   }
@@ -95,6 +103,11 @@ export class Viewer {
   /** Instants that are not at hand for a moment. */
   missingFor(moment: number): number[] {
     return this.pair?.first.missingFor(moment) ?? []; // the other bake's come along
+  }
+
+  /** Download size of what a moment still needs; null when a manifest does not list it. */
+  bytesMissingFor(moment: number): number | null {
+    return this.pair?.bytesMissingFor(moment) ?? null;
   }
 
   get picture(): Picture {
@@ -294,6 +307,7 @@ export class Viewer {
     this.resizeObserver.disconnect();
     this.steering?.dispose();
     this.pair?.dispose();
+    this.painter.dispose();
     this.renderer.dispose();
   }
 }
