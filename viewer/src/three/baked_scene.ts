@@ -7,7 +7,7 @@ import type { LightPart } from '../core/light_parts';
 import { LoadError } from '../core/load_error';
 import type { Picture } from '../core/pictures';
 import { text } from '../core/text';
-import { makeSharedUniforms, setFalseColour, setNumbersPicture, setPartsOff, setPicture, type SharedUniforms } from './city_material';
+import { makeSharedUniforms, mostPages, setFalseColour, setNumbersPicture, setPartsOff, setPicture, type SharedUniforms } from './city_material';
 import { loadCity, type City } from './city';
 import { CityRays } from './city_rays';
 import { Ground } from './ground';
@@ -63,6 +63,7 @@ export class BakedScene {
     const shared = makeSharedUniforms();
     const bytes = await bake.fetch(cityUri, onBytes);
     const city = await loadCity(bake.url(cityUri), bytes, bake.manifest.pages, shared, painter, maxAnisotropy);
+    if (bake.manifest.pages.length > Math.min(mostPages, painter.mostLayers)) throw new LoadError(bake.manifestUrl, text.error.tooManyPages(bake.manifest.pages.length, painter.mostLayers));
     if (city.chartCount > bake.manifest.charts) throw new LoadError(bake.url(cityUri), text.error.tooManyCharts(city.chartCount, bake.manifest.charts));
     return new BakedScene(bake, city, shared, await bake.loadLampScales(onBytes), painter, onChange);
   }
@@ -93,9 +94,9 @@ export class BakedScene {
     this.instants.forgetBut([...needed, ...this.instantsOnShow()]);
     try {
       if (this.shownMoment < 0) {
-        await Promise.all(loading.map(({ started }) => started));
+        await loading[0]?.started;
         if (this.wantedMoment !== moment) return false;
-        this.present(moment, loading.flatMap(({ textures }) => textures ?? []));
+        this.present(Math.floor(moment), loading.slice(0, 1).flatMap(({ textures }) => textures ?? []));
       }
       await Promise.all([...loading.map(({ whole }) => whole), this.loadLamps(order, onBytes)]);
       if (this.wantedMoment !== moment) return false;

@@ -10,6 +10,11 @@ const numbersPicture = 5;
 /** From this number on a picture shows a measure in false colours. */
 export const firstMeasure = pictureNumber.illuminance;
 
+/** Layers that the shader can tell apart; graphics cards have 256 to 2,048. */
+export const mostPages = 2048;
+/** What a surface shows until its page is here, as a share of its chart's brightest light: a city without shadows, neither black nor blinding. */
+const untilLoaded = 0.6;
+
 /** Charts in a row of the texture of scales. */
 export const scalesWidth = 2048;
 
@@ -24,6 +29,8 @@ export interface SharedUniforms extends AirUniforms {
   uIndirectB: THREE.IUniform<THREE.Texture | null>;
   uLamps: THREE.IUniform<THREE.Texture | null>;
   uSkyView: THREE.IUniform<THREE.Texture | null>;
+  /** A bit a page of the instant on show that is here. */
+  uPagesHere: THREE.IUniform<Int32Array>;
   /** Texels of a layer. */
   uPageSize: THREE.IUniform<THREE.Vector2>;
   uSunKlx: THREE.IUniform<[THREE.Vector3, THREE.Vector3]>;
@@ -45,6 +52,7 @@ export function makeSharedUniforms(): SharedUniforms {
     uIndirectB: { value: null },
     uLamps: { value: null },
     uSkyView: { value: null },
+    uPagesHere: { value: new Int32Array(mostPages / 32) },
     uPageSize: { value: new THREE.Vector2(1, 1) },
     uSunKlx: { value: [new THREE.Vector3(), new THREE.Vector3()] },
     uScale: { value: new THREE.Vector3(0, 1, 0) },
@@ -104,6 +112,8 @@ flat out float vLayer;
 uniform highp sampler2D uScales;
 uniform highp sampler2D uScalesB;
 uniform float uBlend;
+uniform int uPagesHere[${mostPages / 32}];
+flat out int vIsHere;
 out vec2 vUv;
 centroid out vec2 vTexel;
 flat out float vPage;
@@ -120,6 +130,8 @@ void main() {
   vTint = tint;
   vTexel = texel.xy;
   vPage = texel.z;
+  int page = int(texel.z + 0.5);
+  vIsHere = (uPagesHere[page >> 5] >> (page & 31)) & 1;
   int row = int(chart + 0.5);
   ivec2 entry = ivec2(row % ${scalesWidth}, row / ${scalesWidth});
   vScale = texelFetch(uScales, entry, 0);
@@ -138,6 +150,7 @@ const fragmentShader = /* glsl */ `
 in vec2 vUv;
 centroid in vec2 vTexel;
 flat in float vPage;
+flat in int vIsHere;
 flat in vec4 vScale;
 flat in vec4 vScaleB;
 in vec3 vPosition;
@@ -172,9 +185,30 @@ vec4 falseColour(float value) {
 }
 
 float level; // of the pages
+vec4 cubicPlaces; // left, upper, right, lower: where two texels each are read at once
+vec2 cubicShares; // of right and lower
 
+// A cubic B-spline over 4 × 4 texels as four bilinear reads: C. Sigg, M. Hadwiger, "Fast third-order texture filtering", GPU Gems 2 (2005),
+// ch. 20. Twin: src/render/light_page.cpp.
+void placeCubic() {
+  vec2 first = floor(vTexel - 0.5);
+  vec2 t = vTexel - 0.5 - first;
+  vec2 s = 1.0 - t;
+  vec2 w0 = s * s * s / 6.0;
+  vec2 w1 = 2.0 / 3.0 - 0.5 * t * t * (2.0 - t);
+  vec2 w2 = 2.0 / 3.0 - 0.5 * s * s * (2.0 - s);
+  vec2 w3 = t * t * t / 6.0;
+  cubicShares = w2 + w3;
+  cubicPlaces = vec4(first - 0.5 + w1 / (w0 + w1), first + 1.5 + w3 / cubicShares) / uPageSize.xyxy;
+}
+
+// Where a pixel is wider than a texel the coarser level is mixed in, and is all from two texels on.
 vec4 pageAt(sampler2DArray pages) {
-  return textureLod(pages, vec3(vTexel / uPageSize, vPage), level);
+  if (level >= 1.0) return textureLod(pages, vec3(vTexel / uPageSize, vPage), 1.0);
+  vec4 upper = mix(textureLod(pages, vec3(cubicPlaces.xy, vPage), 0.0), textureLod(pages, vec3(cubicPlaces.zy, vPage), 0.0), cubicShares.x);
+  vec4 lower = mix(textureLod(pages, vec3(cubicPlaces.xw, vPage), 0.0), textureLod(pages, vec3(cubicPlaces.zw, vPage), 0.0), cubicShares.x);
+  vec4 fine = mix(upper, lower, cubicShares.y);
+  return level > 0.0 ? mix(fine, textureLod(pages, vec3(vTexel / uPageSize, vPage), 1.0), level) : fine;
 }
 
 // Sun, sky and reflected light of one instant, klx.
@@ -201,11 +235,13 @@ void main() {
   vec2 dx = dFdx(vTexel);
   vec2 dy = dFdy(vTexel);
   level = clamp(0.5 * log2(max(max(dot(dx, dx), dot(dy, dy)), 1e-8)), 0.0, 1.0);
+  placeCubic();
   if (uPicture == ${pictureNumber['sky-view']}) {
     outColor = falseColour(pageAt(uSkyView).r);
     return;
   }
-  vec3 illuminance = lightOf(uLight, uIndirect, vScale, uSunKlx[0]);
+  vec3 illuminance = vIsHere == 1 ? lightOf(uLight, uIndirect, vScale, uSunKlx[0])
+    : ${untilLoaded} * (uParts.x * vScale.y * uSunKlx[0] + uParts.y * vScale.x);
   if (uBlend > 0.0) illuminance = mix(illuminance, lightOf(uLightB, uIndirectB, vScaleB, uSunKlx[1]), uBlend);
   if (vScale.w > 0.0) illuminance += uParts.w * pageAt(uLamps).rgb * vScale.w;
   if (uPicture == ${numbersPicture}) {

@@ -4,8 +4,7 @@ const fragmentShader = /* glsl */ `
 uniform sampler2D uColour;
 uniform sampler2D uAlpha;
 uniform bool uHasAlpha;
-uniform int uLevel; // −1: a fill
-uniform vec4 uFill;
+uniform int uLevel;
 layout(location = 0) out vec4 outColor;
 
 vec4 texelAt(ivec2 place) {
@@ -14,10 +13,6 @@ vec4 texelAt(ivec2 place) {
 }
 
 void main() {
-  if (uLevel < 0) {
-    outColor = uFill;
-    return;
-  }
   ivec2 place = ivec2(gl_FragCoord.xy);
   ivec2 first = 2 * place;
   outColor = uLevel == 0 ? texelAt(place)
@@ -34,11 +29,10 @@ export class LayerPainter {
   private readonly alpha: THREE.IUniform<THREE.Texture | null> = { value: null };
   private readonly hasAlpha = { value: false };
   private readonly level = { value: 0 };
-  private readonly filling = { value: new THREE.Vector4() };
   private readonly material = new THREE.ShaderMaterial({
     name: 'layers',
     glslVersion: THREE.GLSL3,
-    uniforms: { uColour: this.colour, uAlpha: this.alpha, uHasAlpha: this.hasAlpha, uLevel: this.level, uFill: this.filling },
+    uniforms: { uColour: this.colour, uAlpha: this.alpha, uHasAlpha: this.hasAlpha, uLevel: this.level },
     vertexShader: 'void main() { gl_Position = vec4(position.xy, 0.0, 1.0); }',
     fragmentShader,
     depthTest: false,
@@ -69,18 +63,17 @@ export class LayerPainter {
     }
   }
 
-  /** One value (colours linear) in all texels of a layer, in both levels. */
-  fill(target: THREE.WebGLArrayRenderTarget, layer: number, value: THREE.Vector4): void {
-    this.filling.value.copy(value);
-    this.level.value = -1;
-    for (let level = 0; level < 2; ++level) this.draw(target, layer, level, target.width >> level, target.height >> level);
-  }
-
   private draw(target: THREE.WebGLArrayRenderTarget, layer: number, level: number, width: number, height: number): void {
     target.viewport.set(0, 0, width, height);
     this.renderer.setRenderTarget(target, layer, level);
     this.renderer.render(this.scene, this.camera);
     this.renderer.setRenderTarget(null);
+  }
+
+  /** Layers that a texture can have on this card. */
+  get mostLayers(): number {
+    const gl = this.renderer.getContext() as WebGL2RenderingContext;
+    return gl.getParameter(gl.MAX_ARRAY_TEXTURE_LAYERS) as number;
   }
 
   dispose(): void {
@@ -126,11 +119,6 @@ export class PageLayers {
   get bytes(): number {
     const { width, height, depth, texture } = this.target;
     return (texture.format === THREE.RedFormat ? 1 : 4) * depth * (width * height + (width >> 1) * (height >> 1));
-  }
-
-  /** Gives all texels of all pages one value: colours linear. */
-  fill(value: THREE.Vector4): void {
-    for (let page = 0; page < this.target.depth; ++page) this.painter.fill(this.target, page, value);
   }
 
   /** Puts a page, and closes its pictures. */

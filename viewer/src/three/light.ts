@@ -3,14 +3,13 @@ import type { BakedInstant, EncodedPage, InstantLight, InstantPage } from '../co
 import { LoadError } from '../core/load_error';
 import { text } from '../core/text';
 import { applyAir } from './air';
-import { scalesWidth, type SharedUniforms } from './city_material';
+import { mostPages, scalesWidth, type SharedUniforms } from './city_material';
 import { PageLayers, type LayerPainter } from './layers';
-
-/** What a texel shows until its page is here, as a share of its chart's brightest light: a city without shadows, neither black nor blinding. */
-const untilLoaded = new THREE.Vector4(0.6, 0.6, 0.6, 0.6);
 
 /** The light of one instant on the graphics card; dispose() gives its memory back. */
 export class InstantTextures {
+  /** A bit a page that is here. */
+  readonly pagesHere = new Int32Array(mostPages / 32);
   readonly scales: THREE.DataTexture;
   /** Skylight, and in alpha the sun's cosine. */
   readonly light: PageLayers;
@@ -22,9 +21,7 @@ export class InstantTextures {
   constructor(files: InstantLight, lampScales: Float32Array<ArrayBuffer> | null, pages: readonly { width: number; height: number }[], painter: LayerPainter) {
     this.scales = makeScalesTexture(files.scales, files.indirectScales, lampScales);
     this.light = new PageLayers(painter, pages, 'light');
-    this.light.fill(untilLoaded);
     this.indirect = files.indirectScales && new PageLayers(painter, pages, 'light');
-    this.indirect?.fill(new THREE.Vector4());
     const { width, height, halves } = files.panorama;
     this.panorama = makeTurnTexture(halves, width, height);
     const { airlight } = files;
@@ -40,6 +37,7 @@ export class InstantTextures {
     signal.throwIfAborted(); // its layers are gone
     this.light.put(page, skyPicture, sunPicture);
     if (indirectPicture) this.indirect?.put(page, indirectPicture, null);
+    this.pagesHere[page >> 5] = (this.pagesHere[page >> 5] ?? 0) | (1 << (page & 31));
   }
 
   /** On the graphics card. */
@@ -58,6 +56,7 @@ export function applyLight(slot: 0 | 1, textures: InstantTextures, instant: Bake
   (slot === 0 ? shared.uScales : shared.uScalesB).value = textures.scales;
   (slot === 0 ? shared.uLight : shared.uLightB).value = textures.light.texture;
   (slot === 0 ? shared.uIndirect : shared.uIndirectB).value = textures.indirect?.texture ?? null;
+  if (slot === 0) shared.uPagesHere.value = textures.pagesHere;
   shared.uSunKlx.value[slot].fromArray(instant.sun.normal_illuminance_klx);
   if (instant.air && textures.air) applyAir(shared, slot, instant.air, instant.sun.direction as [number, number, number], textures.air);
 }

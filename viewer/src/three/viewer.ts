@@ -22,6 +22,9 @@ export interface ViewerOptions {
   onError: (error: unknown) => void;
 }
 
+/** Pictures with new pages follow each other no faster. */
+const pageIntervalMs = 250;
+
 /** Draws a bake. Positions at its surface are world metres (z up); inside all is the scene's frame (y up). */
 export class Viewer {
   private readonly renderer: THREE.WebGLRenderer;
@@ -37,6 +40,7 @@ export class Viewer {
   private isAirSeen = true;
   private frameRequest: number | null = null;
   private lastFrameMs: number | null = null;
+  private drawSoon: number | null = null;
   private frames = 0;
 
   /** Throws when the browser has no WebGL 2. */
@@ -68,7 +72,7 @@ export class Viewer {
   }
 
   private openScene(bake: Bake, onBytes: OnBytes): Promise<BakedScene> {
-    return BakedScene.open(bake, this.painter, this.renderer.capabilities.getMaxAnisotropy(), onBytes, () => this.changed());
+    return BakedScene.open(bake, this.painter, this.renderer.capabilities.getMaxAnisotropy(), onBytes, () => this.changedSoon());
   }
 
   /** Loads a second bake to compare with. Throws LoadError. */
@@ -274,6 +278,14 @@ export class Viewer {
     this.frameRequest ??= requestAnimationFrame((now) => this.frame(now));
   }
 
+  /** The same for what comes in many small pieces, pages of light: a slow rasteriser would draw instead of loading. */
+  private changedSoon(): void {
+    this.drawSoon ??= window.setTimeout(() => {
+      this.drawSoon = null;
+      this.changed();
+    }, pageIntervalMs);
+  }
+
   private frame(now: number): void {
     this.frameRequest = null;
     const seconds = this.lastFrameMs === null ? 1 / 60 : (now - this.lastFrameMs) / 1000;
@@ -304,6 +316,7 @@ export class Viewer {
 
   dispose(): void {
     if (this.frameRequest !== null) cancelAnimationFrame(this.frameRequest);
+    if (this.drawSoon !== null) clearTimeout(this.drawSoon);
     this.resizeObserver.disconnect();
     this.steering?.dispose();
     this.pair?.dispose();
