@@ -91,7 +91,7 @@ export class BakedScene {
   async showMoment(moment: number, eye: THREE.Vector3, onBytes: OnBytes): Promise<boolean> {
     this.wantedMoment = moment;
     const needed = instantsOf(moment);
-    const order = pagesByNearness(this.city, this.bake.manifest.pages.length, eye);
+    const order = this.missingFor(moment).length > 0 ? pagesByNearness(this.city, this.bake.manifest.pages.length, eye) : [];
     const loading = needed.map((index) => this.instants.use(index, order, onBytes));
     this.instants.forgetBut([...needed, ...this.instantsOnShow()]);
     try {
@@ -100,7 +100,7 @@ export class BakedScene {
         if (this.wantedMoment !== moment) return false;
         this.present(Math.floor(moment), loading.slice(0, 1).flatMap(({ textures }) => textures ?? []));
       }
-      await Promise.all([...loading.map(({ whole }) => whole), this.loadLamps(order, onBytes)]);
+      await Promise.all([...loading.map(({ whole }) => whole), this.loadLamps(onBytes)]);
       if (this.wantedMoment !== moment) return false;
       this.present(moment, loading.flatMap(({ textures }) => textures ?? []));
       this.instants.forgetBut(needed);
@@ -197,9 +197,9 @@ export class BakedScene {
     this.shared.uExposure.value = exposureFactor(hint, this.ev, this.picture);
   }
 
-  private async loadLamps(order: readonly number[], onBytes: OnBytes): Promise<void> {
+  private async loadLamps(onBytes: OnBytes): Promise<void> {
     if (!this.lampScales) return;
-    this.lamps ??= this.loadShared('lamps', order, onBytes).catch((error: unknown) => {
+    this.lamps ??= this.loadShared('lamps', onBytes).catch((error: unknown) => {
       this.lamps = null; // the next question asks again
       throw error;
     });
@@ -207,7 +207,7 @@ export class BakedScene {
   }
 
   private async loadSkyView(): Promise<void> {
-    this.skyView ??= this.loadShared('svf', this.bake.manifest.pages.keys(), () => {}).catch((error: unknown) => {
+    this.skyView ??= this.loadShared('svf', () => {}).catch((error: unknown) => {
       this.skyView = null;
       throw error;
     });
@@ -215,11 +215,11 @@ export class BakedScene {
   }
 
   /** Pages that all instants share, on show as they come. Throws LoadError. */
-  private async loadShared(kind: 'lamps' | 'svf', order: Iterable<number>, onBytes: OnBytes): Promise<void> {
+  private async loadShared(kind: 'lamps' | 'svf', onBytes: OnBytes): Promise<void> {
     const layers = new PageLayers(this.painter, this.bake.manifest.pages, kind === 'lamps' ? 'light' : 'share');
     this.sharedLayers.push(layers);
     (kind === 'lamps' ? this.shared.uLamps : this.shared.uSkyView).value = layers.texture;
-    await Promise.all([...order].map(async (page) => {
+    await Promise.all(this.bake.manifest.pages.map(async (_, page) => {
       layers.put(page, await decodePage(await this.bake.loadSharedPage(page, kind, onBytes)), null);
       this.onChange();
     }));
