@@ -10,7 +10,8 @@ import { text } from './core/text';
 import { luminance, type Vec3 } from './core/units';
 import { formatViewState, parseViewState, type ViewState } from './core/view_state';
 import { Measuring } from './measuring';
-import { Viewer, type ViewerStats } from './three/viewer';
+import type { ViewerStats } from './three/stats';
+import { Viewer } from './three/viewer';
 import type { WalkKey } from './three/walk';
 import { element } from './ui/element';
 import { CompareBar } from './ui/compare_bar';
@@ -120,10 +121,10 @@ export class App {
     document.body.append(this.panel.opener, this.panel.root, this.measuring.panel.root, this.legend.root, this.makePad(), this.measuring.marker);
     if (innerWidth < narrowPage && matchMedia('(pointer: coarse)').matches) this.panel.show(false); // a phone shows the city first
     this.restore(parseViewState(location.hash));
-    await this.showMoment(this.momentOfLink());
-    this.listenForClicks();
+    this.listenForClicks(); // who sees the first pages may walk
     window.addEventListener('keydown', (event) => this.key(event));
     window.addEventListener('hashchange', () => this.restoreFromLink());
+    await this.showMoment(this.momentOfLink());
   }
 
   /** Loads the bake to compare with. Throws LoadError. */
@@ -157,8 +158,7 @@ export class App {
     const missing = this.viewer.missingFor(moment);
     const label = momentLabel(instants, moment);
     if (missing.length > 0) {
-      const sizes = missing.map((index) => bake.bytesOfInstant(index));
-      const total = sizes.reduce<number | null>((sum, bytes) => (sum === null || bytes === null ? null : sum + bytes), 0);
+      const total = this.viewer.bytesMissingFor(moment);
       this.progress.begin(text.loading(text.loadingParts.light(missing.map((index) => formatInstant(instants[index]?.label ?? '')).join(', '))), total);
     }
     try {

@@ -6,8 +6,9 @@ import { formatInstant, utcOf } from './core/moment';
 import { text } from './core/text';
 import { language } from './core/text/language';
 import { sceneToWorld, worldToScene, type Vec3 } from './core/units';
+import type { Picked } from './three/bake_pair';
 import { reflectanceAt } from './three/reflectance';
-import type { Picked, Viewer } from './three/viewer';
+import type { Viewer } from './three/viewer';
 import { element } from './ui/element';
 import { MeasurePanel, type Reading } from './ui/measure_panel';
 import { sunChart } from './ui/sun_chart';
@@ -63,7 +64,7 @@ export class Measuring {
       return;
     }
     const question = ++this.question;
-    this.place = this.viewer.worldOf(picked);
+    this.place = picked.world;
     this.moveMarker();
     this.panel.showReading(null, isByKey);
     try {
@@ -109,8 +110,8 @@ export class Measuring {
     const { baked: { bake, moment }, hit, surface } = picked;
     const { manifest } = bake;
     const instant = Math.round(moment);
-    const { page, column, row, width, height } = texelOf(picked);
-    const middle = sceneToWorld(surface.pointAt(new THREE.Vector2((column + 0.5) / width, (row + 0.5) / height)).toArray());
+    const { page, column, row } = texelOf(picked);
+    const middle = sceneToWorld(surface.pointAt(new THREE.Vector2(column + 0.5, row + 0.5)).toArray());
     const normal = sceneToWorld(hit.normal.toArray());
     const twin = this.viewer.pickTwin(picked);
     const [light, objects, twinLight] = await Promise.all([
@@ -131,8 +132,8 @@ export class Measuring {
       parts: light.parts.map(({ part, lx }) => ({ name: text.partNames[part], lx })),
       facts: [
         ...(twinLight === null ? [] : [
-          { name: this.viewer.isOther(picked) ? 'A' : 'B', value: text.measure.lux(twinLight) },
-          { name: text.measure.change, value: text.measure.signedLux((this.viewer.isOther(picked) ? 1 : -1) * (light.total - twinLight)) },
+          { name: picked.isOther ? 'A' : 'B', value: text.measure.lux(twinLight) },
+          { name: text.measure.change, value: text.measure.signedLux((picked.isOther ? 1 : -1) * (light.total - twinLight)) },
         ]),
         ...factsOf(owner),
         { name: text.measure.skyView, value: light.skyViewFactor.toLocaleString(language, { maximumFractionDigits: 3 }) },
@@ -187,11 +188,9 @@ export class Measuring {
 }
 
 /** The texel of the lightmap that holds the place. */
-function texelOf({ baked: { bake }, surface }: Picked): { page: number; column: number; row: number; width: number; height: number } {
-  const page = Number((surface.mesh.userData as { page?: number }).page ?? 0);
+function texelOf({ baked: { bake }, surface: { page, texel } }: Picked): { page: number; column: number; row: number } {
   const { width, height } = bake.manifest.pages[page] ?? { width: 1, height: 1 };
-  const column = Math.min(width - 1, Math.floor(surface.lightUv.x * width));
-  return { page, column, row: Math.min(height - 1, Math.floor(surface.lightUv.y * height)), width, height };
+  return { page, column: Math.min(width - 1, Math.floor(texel.x)), row: Math.min(height - 1, Math.floor(texel.y)) };
 }
 
 async function lightAt(picked: Picked): Promise<number> {

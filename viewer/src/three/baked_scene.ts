@@ -1,22 +1,24 @@
 import * as THREE from 'three';
-import type { Bake, LampLight } from '../core/bake';
+import type { Bake } from '../core/bake';
 import { exposureFactor } from '../core/exposure';
 import type { FalseColour } from '../core/false_colour';
 import type { OnBytes } from '../core/fetch';
+import { bytesNeededOfGlb, closeGlb } from '../core/glb';
 import type { LightPart } from '../core/light_parts';
 import { LoadError } from '../core/load_error';
 import type { Picture } from '../core/pictures';
 import { text } from '../core/text';
-import { makeSharedUniforms, setFalseColour, setNumbersPicture, setPartsOff, setPicture, type SharedUniforms } from './city_material';
-import { loadCity, type City } from './city';
+import { makeSharedUniforms, mostPages, setFalseColour, setNumbersPicture, setPartsOff, setPicture, type SharedUniforms } from './city_material';
+import { cityAttributes, loadCity, type City } from './city';
 import { CityRays } from './city_rays';
 import { Ground } from './ground';
-import { applyLight, makeLampTextures, makeLightTextures, makeShareTextures, type LightTextures } from './light';
+import { Instants } from './instants';
+import { PageLayers, type LayerPainter } from './layers';
+import { applyLight, decodePage, type InstantTextures } from './light';
+import { pagesByNearness } from './page_order';
 import { SkyDome } from './sky';
 
 const cityUri = 'city.glb';
-/** Instants kept on the graphics card: the two of a fade, and the one that was left last. */
-const instantsKept = 3;
 
 /** The instants that a moment shows: one, or the two that it fades between. */
 function instantsOf(moment: number): number[] {
@@ -28,11 +30,12 @@ function instantsOf(moment: number): number[] {
 export class BakedScene {
   readonly scene = new THREE.Scene();
   private readonly sky: SkyDome;
-  private readonly kept = new Map<number, LightTextures>(); // the one used last stands last
-  private skyViewTextures: THREE.Texture[] | null = null;
+  private readonly instants: Instants;
+  private lamps: Promise<void> | null = null;
+  private skyView: Promise<void> | null = null;
+  private readonly sharedLayers: PageLayers[] = [];
   private raysBuilt: CityRays | null = null;
   private groundBuilt: Ground | null = null;
-  private readonly pending = new Map<number, { light: Promise<LightTextures>; abort: AbortController }>();
   private wantedMoment = -1;
   private shownMoment = -1;
   /** Another bake whose exposure this one takes, so that both can be compared. */
@@ -45,22 +48,26 @@ export class BakedScene {
     readonly bake: Bake,
     readonly city: City,
     private readonly shared: SharedUniforms,
-    private readonly lamps: LampLight | null,
-    private readonly lampTextures: readonly THREE.Texture[],
+    private readonly lampScales: Float32Array<ArrayBuffer> | null,
+    private readonly painter: LayerPainter,
+    private readonly onChange: () => void,
   ) {
+    const { pages } = bake.manifest;
     this.sky = new SkyDome(shared);
-    city.pages.forEach((page, p) => (page.uLampPage.value = lampTextures[p] ?? null));
+    this.instants = new Instants(bake, lampScales, painter, onChange);
+    shared.uPageSize.value.set(Math.max(...pages.map(({ width }) => width)), Math.max(...pages.map(({ height }) => height)));
     this.scene.add(this.sky.mesh, city.group);
   }
 
-  /** Loads the city; the light comes with showMoment(). Throws LoadError. */
-  static async open(bake: Bake, maxAnisotropy: number, onBytes: OnBytes): Promise<BakedScene> {
+  /** Loads the city; the light comes with showMoment(). `onChange`: what is on show changed by itself. Throws LoadError. */
+  static async open(bake: Bake, painter: LayerPainter, maxAnisotropy: number, onBytes: OnBytes, onChange: () => void): Promise<BakedScene> {
     const shared = makeSharedUniforms();
-    const bytes = await bake.fetch(cityUri, onBytes);
-    const city = await loadCity(bake.url(cityUri), bytes, bake.manifest.pages, shared, maxAnisotropy);
+    const bytes = await bake.fetchStart(cityUri, onBytes, (soFar) => bytesNeededOfGlb(soFar, cityAttributes));
+    closeGlb(bytes);
+    const city = await loadCity(bake.url(cityUri), bytes, bake.manifest.pages, shared, painter, maxAnisotropy);
+    if (bake.manifest.pages.length > Math.min(mostPages, painter.mostLayers)) throw new LoadError(bake.manifestUrl, text.error.tooManyPages(bake.manifest.pages.length, painter.mostLayers));
     if (city.chartCount > bake.manifest.charts) throw new LoadError(bake.url(cityUri), text.error.tooManyCharts(city.chartCount, bake.manifest.charts));
-    const lamps = await bake.loadLamps(onBytes);
-    return new BakedScene(bake, city, shared, lamps, lamps ? await makeLampTextures(lamps) : []);
+    return new BakedScene(bake, city, shared, await bake.loadLampScales(onBytes), painter, onChange);
   }
 
   /** Number of the instant on show; between two of them while they fade; −1 before the first. */
@@ -74,32 +81,29 @@ export class BakedScene {
 
   /** Bytes of light on the graphics card. */
   get lightBytes(): number {
-    let bytes = 0;
-    for (const light of this.kept.values()) bytes += light.bytes;
-    const lampTexels = this.lampTextures.length > 0 ? this.bake.manifest.pages.reduce((sum, { width, height }) => sum + width * height, 0) : 0;
-    return bytes + Math.round((16 / 3) * lampTexels);
+    return this.sharedLayers.reduce((sum, { bytes }) => sum + bytes, this.instants.bytes);
   }
 
   /**
-   * Loads what a moment needs and shows it: an instant, or the cross-fade of its two neighbours. A later call overtakes an earlier one;
-   * false when this one was overtaken. Throws LoadError.
+   * Loads what a moment needs and shows it: an instant, or the cross-fade of its two neighbours. The very first is on show with its first
+   * page, those nearest to `eye` (scene coordinates) first. A later call overtakes an earlier one; false when this one was overtaken. Throws LoadError.
    */
-  async showMoment(moment: number, onBytes: OnBytes): Promise<boolean> {
+  async showMoment(moment: number, eye: THREE.Vector3, onBytes: OnBytes): Promise<boolean> {
     this.wantedMoment = moment;
     const needed = instantsOf(moment);
-    for (const [index, { abort }] of this.pending) {
-      if (needed.includes(index)) continue;
-      abort.abort();
-      this.pending.delete(index);
-    }
+    const order = this.missingFor(moment).length > 0 ? pagesByNearness(this.city, this.bake.manifest.pages.length, eye) : [];
+    const loading = needed.map((index) => this.instants.use(index, order, onBytes));
+    this.instants.forgetBut([...needed, ...this.instantsOnShow()]);
     try {
-      const pair = await Promise.all(needed.map((index) => this.lightOf(index, onBytes)));
+      if (this.shownMoment < 0) {
+        await loading[0]?.started;
+        if (this.wantedMoment !== moment) return false;
+        this.present(Math.floor(moment), loading.slice(0, 1).flatMap(({ textures }) => textures ?? []));
+      }
+      await Promise.all([...loading.map(({ whole }) => whole), this.loadLamps(onBytes)]);
       if (this.wantedMoment !== moment) return false;
-      pair.forEach((light, k) => this.applyInstant(k === 0 ? 0 : 1, needed[k] ?? 0, light));
-      this.shared.uBlend.value = moment - Math.floor(moment);
-      this.shownMoment = moment;
-      this.forgetOld();
-      this.applyDisplay();
+      this.present(moment, loading.flatMap(({ textures }) => textures ?? []));
+      this.instants.forgetBut(needed);
       return true;
     } catch (error) {
       if (this.wantedMoment !== moment) return false;
@@ -108,9 +112,25 @@ export class BakedScene {
     }
   }
 
+  private present(moment: number, light: readonly InstantTextures[]): void {
+    const needed = instantsOf(moment);
+    light.forEach((textures, k) => this.applyInstant(k === 0 ? 0 : 1, needed[k] ?? 0, textures));
+    this.shared.uBlend.value = moment - Math.floor(moment);
+    this.shownMoment = moment;
+    this.applyDisplay();
+    this.onChange();
+  }
+
   /** Which instants would have to be fetched for a moment. */
   missingFor(moment: number): number[] {
-    return instantsOf(moment).filter((index) => !this.kept.has(index));
+    return instantsOf(moment).filter((index) => !this.instants.isWhole(index));
+  }
+
+  /** Download size of what a moment still needs; null when the manifest does not list it. */
+  bytesMissingFor(moment: number): number | null {
+    const sizes = this.missingFor(moment).map((index) => this.bake.bytesOfInstant(index));
+    if (this.lampScales && !this.lamps) sizes.push(this.bake.bytesOfLamps());
+    return sizes.reduce<number | null>((sum, bytes) => (sum === null || bytes === null ? null : sum + bytes), 0);
   }
 
   /** How the light is shown. Throws LoadError when the picture needs a file that cannot be read. */
@@ -147,10 +167,9 @@ export class BakedScene {
   }
 
   dispose(): void {
-    for (const { abort } of this.pending.values()) abort.abort();
     this.city.dispose();
-    for (const light of this.kept.values()) light.dispose();
-    for (const texture of [...this.lampTextures, ...(this.skyViewTextures ?? [])]) texture.dispose();
+    this.instants.dispose();
+    for (const layers of this.sharedLayers) layers.dispose();
     this.sky.dispose();
   }
 
@@ -158,49 +177,10 @@ export class BakedScene {
     return this.shownMoment < 0 ? [] : instantsOf(this.shownMoment);
   }
 
-  private async lightOf(index: number, onBytes: OnBytes): Promise<LightTextures> {
-    const known = this.kept.get(index);
-    if (known) {
-      this.kept.delete(index);
-      this.kept.set(index, known);
-      return known;
-    }
-    const underWay = this.pending.get(index);
-    if (underWay) return underWay.light;
-    const abort = new AbortController();
-    const load = async (): Promise<LightTextures> => {
-      try {
-        const files = await this.bake.loadInstant(index, this.bake.manifest.charts, onBytes, abort.signal);
-        const light = await makeLightTextures(files, this.lamps?.scales ?? null);
-        if (abort.signal.aborted) {
-          light.dispose();
-          throw new DOMException('overtaken', 'AbortError');
-        }
-        this.kept.set(index, light);
-        return light;
-      } finally {
-        if (this.pending.get(index)?.abort === abort) this.pending.delete(index);
-      }
-    };
-    const light = load();
-    this.pending.set(index, { light, abort });
-    return light;
-  }
-
-  private applyInstant(slot: 0 | 1, index: number, light: LightTextures): void {
+  private applyInstant(slot: 0 | 1, index: number, light: InstantTextures): void {
     const instant = this.bake.instant(index);
-    applyLight(slot, light, instant, this.shared, this.city.pages);
+    applyLight(slot, light, instant, this.shared);
     this.sky.apply(slot, light.panorama, instant, this.bake.manifest.bounds.min[2] ?? 0);
-  }
-
-  private forgetOld(): void {
-    const onShow = this.instantsOnShow();
-    for (const [index, light] of this.kept) {
-      if (this.kept.size <= instantsKept) return;
-      if (onShow.includes(index)) continue;
-      light.dispose();
-      this.kept.delete(index);
-    }
   }
 
   private applyDisplay(): void {
@@ -217,12 +197,31 @@ export class BakedScene {
     this.shared.uExposure.value = exposureFactor(hint, this.ev, this.picture);
   }
 
+  private async loadLamps(onBytes: OnBytes): Promise<void> {
+    if (!this.lampScales) return;
+    this.lamps ??= this.loadShared('lamps', onBytes).catch((error: unknown) => {
+      this.lamps = null; // the next question asks again
+      throw error;
+    });
+    await this.lamps;
+  }
+
   private async loadSkyView(): Promise<void> {
-    if (this.skyViewTextures) return;
-    const pages = this.bake.manifest.pages.map(async ({ svf, width, height }) => ({ url: this.bake.url(svf), bytes: await this.bake.fetch(svf, () => {}), width, height }));
-    const textures = await makeShareTextures(await Promise.all(pages));
-    if (this.skyViewTextures) return textures.forEach((texture) => texture.dispose()); // asked for twice
-    this.skyViewTextures = textures;
-    this.city.pages.forEach((page, p) => (page.uSkyViewPage.value = textures[p] ?? null));
+    this.skyView ??= this.loadShared('svf', () => {}).catch((error: unknown) => {
+      this.skyView = null;
+      throw error;
+    });
+    await this.skyView;
+  }
+
+  /** Pages that all instants share, on show as they come. Throws LoadError. */
+  private async loadShared(kind: 'lamps' | 'svf', onBytes: OnBytes): Promise<void> {
+    const layers = new PageLayers(this.painter, this.bake.manifest.pages, kind === 'lamps' ? 'light' : 'share');
+    this.sharedLayers.push(layers);
+    (kind === 'lamps' ? this.shared.uLamps : this.shared.uSkyView).value = layers.texture;
+    await Promise.all(this.bake.manifest.pages.map(async (_, page) => {
+      layers.put(page, await decodePage(await this.bake.loadSharedPage(page, kind, onBytes)), null);
+      this.onChange();
+    }));
   }
 }
