@@ -1,16 +1,16 @@
 import * as THREE from 'three';
-import type { OwnerOfChart } from './core/objects';
-import { measure } from './core/measure';
-import { domeOf, hoursInView, sunPath, type SunPoint } from './core/obstruction';
-import { formatInstant, utcOf } from './core/moment';
-import { text } from './core/text';
-import { language } from './core/text/language';
-import { sceneToWorld, worldToScene, type Vec3 } from './core/units';
-import { reflectanceAt } from './three/reflectance';
-import type { Picked, Viewer } from './three/viewer';
-import { element } from './ui/element';
-import { MeasurePanel, type Reading } from './ui/measure_panel';
-import { sunChart } from './ui/sun_chart';
+import type { OwnerOfChart } from '../core/objects';
+import { measure } from '../core/measure';
+import { domeOf, hoursInView, sunPath, type SunPoint } from '../core/obstruction';
+import { formatInstant, utcOf } from '../core/moment';
+import { text } from '../core/text';
+import { language } from '../core/text/language';
+import { sceneToWorld, worldToScene, type Vec3 } from '../core/units';
+import { reflectanceAt } from '../three/reflectance';
+import type { Picked, Viewer } from '../three/viewer';
+import { element } from '../ui/element';
+import { MeasurePanel, type Reading } from '../ui/measure_panel';
+import { sunChart } from '../ui/sun_chart';
 
 /** Rays to the sky begin this far off the surface, metres. */
 const lift = 0.02;

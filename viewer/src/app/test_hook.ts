@@ -1,10 +1,10 @@
 import type { App } from './app';
-import type { FalseColour } from './core/false_colour';
-import type { LightPart } from './core/light_parts';
-import type { Mode, Picture } from './core/pictures';
-import type { Vec3 } from './core/units';
+import type { FalseColour } from '../core/false_colour';
+import type { LightPart } from '../core/light_parts';
+import type { Mode, Picture } from '../core/pictures';
+import type { Vec3 } from '../core/units';
 import type { Measured } from './measuring';
-import type { ViewerStats } from './three/viewer';
+import type { ViewerStats } from '../three/viewer';
 
 /**
  * `window.skybake`: what browser tests (and a curious console) hold on to. Positions are local world metres, z up.
@@ -74,6 +74,6 @@ export function installTestHook(app: App, ready: Promise<void>): void {
     readPixels: (x, y, width, height) => Array.from(viewer.readPixels(x, y, width, height)),
     exposure: () => viewer.exposure,
     view: () => ({ mode: viewer.mode, ...viewer.view, moment: viewer.moment, picture: viewer.picture }),
-    stats: () => app.stats(),
+    stats: () => viewer.stats(),
   };
 }

@@ -1,0 +1,46 @@
+import { text } from '../core/text';
+import { formatViewState, parseViewState, type ViewState } from '../core/view_state';
+
+const intervalMs = 300;
+
+/** The part of the page's address that restores what is seen. */
+export class Address {
+  private timer: number | null = null;
+
+  /** @param state what is seen now; null before there is a picture */
+  constructor(
+    private readonly state: () => ViewState | null,
+    private readonly tell: (words: string) => void,
+  ) {}
+
+  get read(): Partial<ViewState> {
+    return parseViewState(location.hash);
+  }
+
+  /** Writes the link at most a few times a second: browsers refuse more. */
+  changed(): void {
+    this.timer ??= window.setTimeout(() => {
+      this.timer = null;
+      this.write();
+    }, intervalMs);
+  }
+
+  async copy(): Promise<void> {
+    this.write();
+    await this.copyText(location.href, text.linkCopied);
+  }
+
+  private write(): void {
+    const state = this.state();
+    if (state) history.replaceState(null, '', formatViewState(state));
+  }
+
+  async copyText(address: string, done: string): Promise<void> {
+    try {
+      await navigator.clipboard.writeText(address);
+      this.tell(done);
+    } catch {
+      this.tell(text.linkNotCopied); // no clipboard over plain http, or the user forbade it
+    }
+  }
+}
