@@ -25,17 +25,28 @@ export class Address {
     }, intervalMs);
   }
 
+  /** The part of the address from its # on; null before there is a picture. */
+  get link(): string | null {
+    const state = this.state();
+    return state && formatViewState(state);
+  }
+
   async copy(): Promise<void> {
     this.write();
     await this.copyText(location.href, text.linkCopied);
   }
 
-  private write(): void {
-    const state = this.state();
-    if (state) history.replaceState(null, '', formatViewState(state));
+  /** Copies the address of this page with another part behind the #. */
+  async copyWith(link: string, done: string): Promise<void> {
+    await this.copyText(new URL(link, location.href).href, done);
   }
 
-  async copyText(address: string, done: string): Promise<void> {
+  private write(): void {
+    const { link } = this;
+    if (link !== null) history.replaceState(null, '', link);
+  }
+
+  private async copyText(address: string, done: string): Promise<void> {
     try {
       await navigator.clipboard.writeText(address);
       this.tell(done);

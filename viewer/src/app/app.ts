@@ -1,35 +1,39 @@
 import { Bake } from '../core/bake';
 import { clampEv } from '../core/exposure';
 import type { FalseColour } from '../core/false_colour';
-import { lightParts, type LightPart } from '../core/light_parts';
+import { titleOf } from '../core/layer_colours';
+import { changedParts, wholeLight, withFactor, withPartOn, type LightMix } from '../core/light_parts';
 import { LoadError } from '../core/load_error';
 import { clampMoment, formatInstant, momentLabel } from '../core/moment';
 import { isMeasure, type Mode, type Picture } from '../core/pictures';
 import { text } from '../core/text';
-import type { Vec3 } from '../core/units';
-import type { ViewState } from '../core/view_state';
+import { parseViewState, type ViewState } from '../core/view_state';
 import { Viewer } from '../three/viewer';
 import { element } from '../ui/element';
+import { HelpDialog } from '../ui/help_dialog';
 import { Legend } from '../ui/legend';
-import { movePad } from '../ui/move_pad';
 import { ProgressNotice, showError } from '../ui/notices';
 import { Panel } from '../ui/panel';
 import { Remarks } from '../ui/remarks';
+import { touchStick } from '../ui/stick';
 import { Address } from './address';
 import { listenForClicks } from './clicks';
 import { Comparing } from './comparing';
 import { listenForKeys } from './keys';
+import { differenceLegend, legendOf } from './legends';
+import { MapCorner } from './map_corner';
 import { Measuring } from './measuring';
+import { MouseLook } from './mouse_look';
 import { airNote, sunNote } from './notes';
 import { Player } from './player';
 import { luxScale, Ranges } from './ranges';
+import { Views } from './views';
 
-/** A view whose eye stands this low over the ground is meant to be walked from, metres. */
-const highestWalker = 4;
 /** The settings would cover most of a page that is narrower, CSS pixels. */
 const narrowPage = 520;
-
-type NamedView = { name: string; position: Vec3; target: Vec3 } | 'birds-eye' | 'on-foot';
+/** On smaller pages the map waits until it is asked for, CSS pixels. */
+const widePage = 900;
+const highPage = 560;
 
 /** Joins the bake, the drawing and the page. */
 export class App {
@@ -44,13 +48,16 @@ export class App {
   private readonly ranges = new Ranges();
   private readonly address = new Address(() => this.state(), this.remarks.tell);
   private readonly player: Player;
+  private readonly mouseLook = new MouseLook(this.canvas, this.remarks.tell);
   private bake: Bake | null = null;
   private panel: Panel | null = null;
-  private views: NamedView[] = [];
+  private views: Views | null = null;
+  private map: MapCorner | null = null;
+  private helpDialog: HelpDialog | null = null;
 
   /** Throws LoadError when the browser has no WebGL 2. */
   constructor(readonly manifestUrl: string, antialias: boolean) {
-    document.body.append(this.canvas, this.progress.root, this.remarks.notice, this.remarks.said, this.help);
+    document.body.append(this.canvas, this.progress.root, this.remarks.notice, this.remarks.said, this.help, this.mouseLook.crosshair);
     try {
       this.viewer = new Viewer(this.canvas, {
         antialias,
@@ -88,24 +95,32 @@ export class App {
       this.comparing = await Comparing.open(url, bake, this.viewer, this.progress, () => this.refresh());
     }
 
-    this.views = [...manifest.views, 'birds-eye', 'on-foot'];
-    this.panel = this.makePanel(title, bake);
-    const pad = movePad({ press: (way, isDown) => this.viewer.pressWalkKey(way, isDown), step: (along, aside) => this.viewer.walkBy(along, aside, 0.5) });
-    document.body.append(this.panel.opener, this.panel.root, this.measuring.panel.root, this.legend.root, pad, this.measuring.marker);
-    if (innerWidth < narrowPage && matchMedia('(pointer: coarse)').matches) this.panel.show(false); // a phone shows the city first
+    this.views = new Views(bake, this.viewer, this.remarks.tell);
+    this.views.takeFrom(location.hash);
+    this.viewer.layer = manifest.layers?.[0]?.id ?? null;
+    this.panel = this.makePanel(title, bake, this.views);
+    this.map = new MapCorner(this.viewer, manifest.convergence_deg, this.remarks.tell, () => this.refresh());
+    this.helpDialog = new HelpDialog(this.comparing !== null);
+    const stick = touchStick({ steer: (along, aside) => this.viewer.steer(along, aside), step: (along, aside) => this.viewer.walkBy(along, aside, 0.5) });
+    document.body.append(
+      this.panel.opener, this.panel.root, this.map.root, this.measuring.panel.root, this.legend.root, stick, this.measuring.marker, this.helpDialog.root);
+    const isPhone = matchMedia('(pointer: coarse)').matches && innerWidth < narrowPage;
+    if (isPhone) this.panel.show(false); // a phone shows the city first
     this.restore(this.address.read);
     await this.showMoment(this.address.read.moment ?? 0);
-    listenForClicks(this.canvas, (at) => void this.measuring.at(at, false));
+    if (!isPhone && innerWidth >= widePage && innerHeight >= highPage) this.showMap(true);
+    listenForClicks(this.canvas, (at) => void this.measuring.at(this.mouseLook.isOn ? this.middle : at, false));
     listenForKeys(this);
     window.addEventListener('hashchange', () => this.restoreFromLink());
   }
 
-  private makePanel(title: string, { manifest }: Bake): Panel {
-    return new Panel(
+  private makePanel(title: string, { manifest }: Bake, views: Views): Panel {
+    const panel = new Panel(
       {
         title,
         instants: manifest.instants.map((instant) => formatInstant(instant.label)),
-        views: this.views.map((view) => (view === 'birds-eye' ? text.birdsEye : view === 'on-foot' ? text.onFoot : view.name)),
+        views: views.names,
+        layers: (manifest.layers ?? []).map((layer) => ({ id: layer.id, title: titleOf(layer) })),
         texelM: manifest.texel_m,
       },
       {
@@ -113,17 +128,36 @@ export class App {
           this.player.play(false); // the user's hand goes first
           void this.showMoment(moment);
         },
-        picture: (picture) => this.setPicture(picture),
-        mode: (mode) => this.setMode(mode),
-        view: (index) => this.showView(index),
-        ev: (ev) => this.setEv(ev),
-        copyLink: () => void this.address.copy(),
         play: () => this.player.play(!this.player.isPlaying),
+        picture: (picture) => this.setPicture(picture),
+        layer: (id) => this.showLayer(id),
+        mode: (mode) => this.setMode(mode),
+        mouseLook: () => this.lookByMouse(),
+        view: (index) => this.showView(index),
+        saveView: (name) => {
+          views.save(name, this.address.link ?? '');
+          panel.showOwnViews(views.ownList);
+        },
+        ownView: (name) => this.restoreView(views.ownLink(name) ?? ''),
+        deleteView: (name) => {
+          views.delete(name);
+          panel.showOwnViews(views.ownList);
+        },
+        copyView: (name) => void this.address.copyWith(views.ownLink(name) ?? '', text.ownViews.copied(name)),
+        copyAllViews: () => void this.address.copyWith(views.withOwn(this.address.link ?? ''), text.ownViews.allCopied),
+        copyLink: () => void this.address.copy(),
         savePicture: () => void this.savePicture(),
+        ev: (ev) => this.setEv(ev),
         air: (isSeen) => this.setAir(isSeen),
-        part: (part, isOn) => this.switchPart(part, isOn),
+        part: (part, isOn) => this.setMix(withPartOn(this.viewer.mix, part, isOn)),
+        factor: (part, factor) => this.setMix(withFactor(this.viewer.mix, part, factor)),
+        wholeLight: () => this.setMix(wholeLight),
+        map: (isShown) => this.showMap(isShown),
+        help: () => this.showHelp(),
       },
     );
+    panel.showOwnViews(views.ownList);
+    return panel;
   }
 
   /** Shows a baked instant, or the cross-fade of two for a moment between them. */
@@ -160,9 +194,19 @@ export class App {
     this.refresh();
   }
 
+  get hasLayers(): boolean {
+    return (this.bake?.manifest.layers?.length ?? 0) > 0;
+  }
+
+  /** Shows a layer of the study. */
+  showLayer(id: string): void {
+    this.viewer.layer = id;
+    this.setPicture('layer');
+  }
+
   /** Range of the false colours of the picture on show. */
   setScale(scale: FalseColour): void {
-    this.ranges.choose(this.viewer.picture, scale);
+    this.ranges.choose(this.viewer, scale);
     this.applyScale();
     this.refresh();
   }
@@ -177,13 +221,15 @@ export class App {
     this.refresh();
   }
 
-  switchPart(part: LightPart, isOn: boolean): void {
-    this.viewer.off = lightParts.filter((other) => (other === part ? !isOn : this.viewer.off.includes(other)));
+  /** How much of each part of the light is shown. */
+  setMix(mix: LightMix): void {
+    this.viewer.mix = mix;
     this.refresh();
   }
 
   setMode(mode: Mode): void {
     if (mode === this.viewer.mode) return;
+    this.mouseLook.end();
     if (mode === 'orbit') this.viewer.leaveWalk();
     else if (!this.viewer.walkFrom(null)) this.remarks.tell(text.noGround);
     this.panel?.showView(null);
@@ -191,91 +237,115 @@ export class App {
     this.canvas.focus({ preventScroll: true });
   }
 
-  /** Looks from a place; on foot when the eye is near the ground. */
-  look(position: Vec3, target: Vec3): void {
-    const height = this.viewer.heightOverGround(position);
-    const isLow = height !== null && height >= 0 && height <= highestWalker;
-    if (!isLow || !this.viewer.walkFrom({ position, target })) this.viewer.lookAt(position, target);
-    this.refresh();
+  /** The mouse looks without being held, on foot, until Escape. */
+  lookByMouse(): void {
+    if (this.viewer.mode !== 'walk') this.setMode('walk');
+    if (this.viewer.mode === 'walk') void this.mouseLook.begin();
   }
 
+  /** Flies to one of the bake's views. */
   showView(index: number): void {
-    const view = this.views[index];
-    if (view === undefined) return;
-    if (view === 'birds-eye') {
-      const { position, target } = this.viewer.birdsEye();
-      this.viewer.lookAt(position, target);
-    } else if (view === 'on-foot') {
-      this.viewer.leaveWalk();
-      if (!this.viewer.walkFrom(null)) this.remarks.tell(text.noGround);
-    } else {
-      this.look(view.position, view.target);
-    }
+    if (!this.views?.show(index, true)) return;
     this.panel?.showView(index);
     this.refresh();
   }
 
+  get isMapShown(): boolean {
+    return this.map?.isShown ?? false;
+  }
+
+  showMap(isShown: boolean): void {
+    this.map?.show(isShown);
+    this.refresh();
+  }
+
+  showHelp(): void {
+    this.mouseLook.end();
+    this.helpDialog?.show();
+  }
+
+  private get middle(): { x: number; y: number } {
+    return { x: this.canvas.clientWidth / 2, y: this.canvas.clientHeight / 2 };
+  }
+
   measureMiddle(): void {
-    void this.measuring.at({ x: this.canvas.clientWidth / 2, y: this.canvas.clientHeight / 2 }, true);
+    void this.measuring.at(this.middle, true);
   }
 
   togglePanel(): void {
     this.panel?.show(!this.panel.isShown);
   }
 
-  private restore(state: Partial<ViewState>): void {
-    if (state.picture) this.viewer.picture = state.picture;
-    if (state.scale && isMeasure(this.viewer.picture)) this.ranges.choose(this.viewer.picture, state.scale);
+  private restore(state: Partial<ViewState>, isFlying = false): void {
+    const layer = this.bake?.layer(state.layer ?? null);
+    if (layer) this.viewer.layer = layer.id;
+    if (state.picture && (state.picture !== 'layer' || layer)) this.viewer.picture = state.picture;
+    else if (state.picture) this.remarks.tell(text.noLayer(state.layer ?? ''));
+    if (state.scale && isMeasure(this.viewer.picture)) this.ranges.choose(this.viewer, state.scale);
     if (state.ev !== undefined) this.viewer.ev = clampEv(state.ev);
     if (state.air !== undefined) this.viewer.air = state.air;
-    this.viewer.off = state.off ?? [];
+    this.viewer.mix = state.mix ?? wholeLight;
     if (state.comparison) this.comparing?.set(state.comparison);
     if (state.position && state.target) {
-      const isWalking = state.mode === 'walk' && this.viewer.walkFrom({ position: state.position, target: state.target });
-      if (!isWalking) this.viewer.lookAt(state.position, state.target);
+      const view = { position: state.position, target: state.target };
+      const isWalking = state.mode === 'walk' && this.viewer.walkFrom(view);
+      if (!isWalking && isFlying) this.viewer.flyTo(view.position, view.target);
+      else if (!isWalking) this.viewer.lookAt(view.position, view.target);
       this.panel?.showView(null);
-    } else if (state.mode === 'walk') {
-      this.showView(this.views.indexOf('on-foot'));
     } else {
-      this.showView(0);
+      const index = state.mode === 'walk' ? (this.views?.onFoot ?? 0) : 0;
+      this.views?.show(index, false);
+      this.panel?.showView(index);
     }
   }
 
   private restoreFromLink(): void {
+    this.views?.takeFrom(location.hash);
+    this.panel?.showOwnViews(this.views?.ownList ?? []);
     const state = this.address.read;
     if (Object.keys(state).length === 0) return;
     this.restore(state);
     void this.showMoment(state.moment ?? 0);
   }
 
+  /** One of the user's own views, with its time and light. */
+  private restoreView(link: string): void {
+    const { comparison, ...state } = parseViewState(link);
+    this.restore(comparison && this.comparing ? { ...state, comparison } : state, true);
+    void this.showMoment(state.moment ?? this.viewer.moment);
+  }
+
   /** The user's range, or one that suits the light on show. */
   private applyScale(): void {
-    const { picture, moment } = this.viewer;
-    if (this.bake && isMeasure(picture)) this.viewer.scale = this.ranges.of(picture, this.bake, moment);
+    if (this.bake && isMeasure(this.viewer.picture)) this.viewer.scale = this.ranges.of(this.viewer, this.bake, this.viewer.moment);
   }
 
   private refresh(): void {
     const { viewer, bake } = this;
     if (!bake) return;
     const moment = Math.max(0, viewer.moment);
+    const parts = bake.partsOf(Math.round(moment));
+    const { picture, layer, mode, mix, scale } = viewer;
     this.panel?.update({
-      moment, label: momentLabel(bake.manifest.instants, moment), picture: viewer.picture, mode: viewer.mode, ev: viewer.ev, exposure: viewer.exposure, air: viewer.air,
-      parts: bake.partsOf(Math.round(moment)), off: viewer.off,
+      moment, label: momentLabel(bake.manifest.instants, moment), picture, layer, mode, ev: viewer.ev, exposure: viewer.exposure, air: viewer.air, parts, mix, isMapShown: this.isMapShown,
     });
-    this.legend.show(viewer.picture === 'illuminance' || viewer.picture === 'sky-view' ? text.legendTitle[viewer.picture] : null, viewer.scale);
+    let legend = legendOf(bake, { picture, scale, layer, mix, parts });
     if (this.comparing) {
       // A tenth of the range of lux: what a planned building takes from a street is seen.
       const range = luxScale(bake, moment).high / 10;
       this.comparing.show(viewer, range);
-      if (this.comparing.shown.shown === 'difference') this.legend.showDifference(text.compare.legend, text.compare.legendNote, range);
+      if (this.comparing.shown.shown === 'difference') legend = differenceLegend(range, mix, parts);
     }
-    this.help.textContent = text.help[viewer.mode] + (this.comparing ? text.compare.keys : '');
-    this.canvas.dataset['mode'] = viewer.mode;
+    this.legend.show(legend);
+    this.measuring.viewChanged(changedParts(mix, parts).length > 0);
+    this.help.textContent = text.help[mode] + (this.comparing ? text.compare.keys : '') + text.help.more;
+    document.body.dataset['mode'] = mode;
     this.viewChanged();
   }
 
   private viewChanged(): void {
     this.measuring.moveMarker();
+    this.map?.update();
     this.address.changed();
   }
 
@@ -284,8 +354,8 @@ export class App {
     const { viewer } = this;
     if (viewer.moment < 0) return null;
     return {
-      ...viewer.view, mode: viewer.mode, picture: viewer.picture, moment: viewer.moment, ev: viewer.ev, air: viewer.air, off: viewer.off,
-      scale: this.ranges.chosenFor(viewer.picture), comparison: this.comparing?.shown ?? null,
+      ...viewer.view, mode: viewer.mode, picture: viewer.picture, moment: viewer.moment, ev: viewer.ev, air: viewer.air, mix: viewer.mix,
+      layer: viewer.picture === 'layer' ? viewer.layer : null, scale: this.ranges.chosenFor(viewer), comparison: this.comparing?.shown ?? null,
     };
   }
 

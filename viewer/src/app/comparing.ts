@@ -1,5 +1,5 @@
 import { Bake } from '../core/bake';
-import type { Comparison } from '../core/comparison';
+import { distinguish, folderOf, type Comparison } from '../core/comparison';
 import { LoadError } from '../core/load_error';
 import { text } from '../core/text';
 import type { Viewer } from '../three/viewer';
@@ -33,7 +33,7 @@ export class Comparing {
     if (other.manifest.instants.length === 0) throw new LoadError(url.href, text.error.noInstants);
     progress.begin(text.loading(text.compare.part), other.bytesOf('city.glb'));
     await viewer.openOther(other, progress.advance);
-    return new Comparing({ a: own.manifest.title || text.untitled, b: other.manifest.title || text.untitled }, onChange);
+    return new Comparing(namesOf(own, other), onChange);
   }
 
   get shown(): Shown {
@@ -59,4 +59,11 @@ export class Comparing {
     this.bar.update(shown, divider);
     viewer.compare(shown, divider, rangeLx);
   }
+}
+
+/** Names that tell the bakes apart. `skybake view` says in the address how their folders are called (a, b): it serves them below other names. */
+function namesOf(own: Bake, other: Bake): { a: string; b: string } {
+  const asked = new URLSearchParams(location.search);
+  const named = (bake: Bake, said: string | null) => ({ manifest: bake.manifest, folder: said ?? folderOf(bake.manifestUrl) });
+  return distinguish(named(own, asked.get('a')), named(other, asked.get('b'))) ?? text.compare.namesakes;
 }

@@ -1,23 +1,36 @@
 import type { Bake } from '../core/bake';
 import { autoScale, skyViewScale, type FalseColour } from '../core/false_colour';
+import { scaleOf } from '../core/layer_colours';
 import type { Picture } from '../core/pictures';
 import { luminance } from '../core/units';
 
+/** A picture, or a layer of the study. */
+export interface Measure {
+  picture: Picture;
+  layer: string | null;
+}
+
+function keyOf({ picture, layer }: Measure): string {
+  return picture === 'layer' ? `layer ${layer}` : picture;
+}
+
 /** Ranges of the false colours: the user's, or those that suit the light. */
 export class Ranges {
-  private readonly chosen = new Map<Picture, FalseColour>();
+  private readonly chosen = new Map<string, FalseColour>();
 
-  choose(picture: Picture, scale: FalseColour): void {
-    this.chosen.set(picture, scale);
+  choose(measure: Measure, scale: FalseColour): void {
+    this.chosen.set(keyOf(measure), scale);
   }
 
   /** The user's range; null: none was chosen. */
-  chosenFor(picture: Picture): FalseColour | null {
-    return this.chosen.get(picture) ?? null;
+  chosenFor(measure: Measure): FalseColour | null {
+    return this.chosen.get(keyOf(measure)) ?? null;
   }
 
-  of(picture: Picture, bake: Bake, moment: number): FalseColour {
-    return this.chosenFor(picture) ?? (picture === 'sky-view' ? skyViewScale : luxScale(bake, moment));
+  of(measure: Measure, bake: Bake, moment: number): FalseColour {
+    const layer = measure.picture === 'layer' ? bake.layer(measure.layer) : null;
+    if (layer && (layer.edges || layer.kind === 'diverging')) return scaleOf(layer); // fixed
+    return this.chosenFor(measure) ?? (layer ? scaleOf(layer) : measure.picture === 'sky-view' ? skyViewScale : luxScale(bake, moment));
   }
 }
 

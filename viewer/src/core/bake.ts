@@ -3,6 +3,7 @@ import { ExrFile } from './exr';
 import { fetchBytes, fetchRange, type OnBytes } from './fetch';
 import type { Manifest } from './generated/manifest';
 import validateManifest from './generated/validate_manifest.js';
+import type { Layer } from './layer_colours';
 import { lightParts, type LightPart } from './light_parts';
 import { LoadError } from './load_error';
 import { CityObjects } from './objects';
@@ -113,6 +114,16 @@ export class Bake {
   /** The archive of an instant's light on a page: lx, 32-bit. Only what is asked of it is fetched. */
   lightFile(index: number, page: number): Promise<ExrFile> {
     return this.archive(this.instant(index).pages[page]?.exr);
+  }
+
+  /** A study's layer; null when the bake has none of that name. */
+  layer(id: string | null): Layer | null {
+    return this.manifest.layers?.find((layer) => layer.id === id) ?? null;
+  }
+
+  /** The archive of a layer's exact numbers on a page. */
+  layerFile(layer: Layer, page: number): Promise<ExrFile> {
+    return this.archive(layer.pages[page]?.exr);
   }
 
   /** The archive of what all instants share on a page. */

@@ -3,15 +3,16 @@ import type { Bake, LampLight } from '../core/bake';
 import { exposureFactor } from '../core/exposure';
 import type { FalseColour } from '../core/false_colour';
 import type { OnBytes } from '../core/fetch';
-import type { LightPart } from '../core/light_parts';
+import type { LightMix } from '../core/light_parts';
 import { LoadError } from '../core/load_error';
 import type { Picture } from '../core/pictures';
 import { text } from '../core/text';
-import { makeSharedUniforms, setFalseColour, setNumbersPicture, setPartsOff, setPicture, type SharedUniforms } from './city_material';
+import { makeSharedUniforms, setFalseColour, setNumbersPicture, setParts, setPicture, type SharedUniforms } from './city_material';
 import { loadCity, type City } from './city';
 import { CityRays } from './city_rays';
 import { Ground } from './ground';
-import { applyLight, makeLampTextures, makeLightTextures, makeShareTextures, type LightTextures } from './light';
+import { applyLight, makeLampTextures, makeLightTextures, type LightTextures } from './light';
+import { MeasurePages } from './measure_pages';
 import { SkyDome } from './sky';
 
 const cityUri = 'city.glb';
@@ -24,12 +25,25 @@ function instantsOf(moment: number): number[] {
   return moment > first ? [first, first + 1] : [first];
 }
 
+/** How the light is shown. */
+export interface Display {
+  picture: Picture;
+  ev: number;
+  /** The air between the eye and the city is drawn. */
+  isAirSeen: boolean;
+  mix: LightMix;
+  /** Range of the false colours. */
+  scale: FalseColour;
+  /** Id of the study's layer, where that is the picture. */
+  layer: string | null;
+}
+
 /** One bake as a scene: its city, and the light of the moment on show. */
 export class BakedScene {
   readonly scene = new THREE.Scene();
   private readonly sky: SkyDome;
   private readonly kept = new Map<number, LightTextures>(); // the one used last stands last
-  private skyViewTextures: THREE.Texture[] | null = null;
+  private readonly measures: MeasurePages;
   private raysBuilt: CityRays | null = null;
   private groundBuilt: Ground | null = null;
   private readonly pending = new Map<number, { light: Promise<LightTextures>; abort: AbortController }>();
@@ -49,6 +63,7 @@ export class BakedScene {
     private readonly lampTextures: readonly THREE.Texture[],
   ) {
     this.sky = new SkyDome(shared);
+    this.measures = new MeasurePages(bake, city.pages, shared);
     city.pages.forEach((page, p) => (page.uLampPage.value = lampTextures[p] ?? null));
     this.scene.add(this.sky.mesh, city.group);
   }
@@ -114,13 +129,14 @@ export class BakedScene {
   }
 
   /** How the light is shown. Throws LoadError when the picture needs a file that cannot be read. */
-  async show(picture: Picture, ev: number, isAirSeen: boolean, off: readonly LightPart[], scale: FalseColour): Promise<void> {
-    if (picture === 'sky-view') await this.loadSkyView();
+  async show({ picture, ev, isAirSeen, mix, scale, layer }: Display): Promise<void> {
+    if (picture === 'sky-view') await this.measures.showSkyView();
+    if (picture === 'layer') await this.measures.showLayer(layer, scale);
     this.picture = picture;
     this.ev = ev;
     this.isAirSeen = isAirSeen;
     setPicture(this.shared, picture);
-    setPartsOff(this.shared, off);
+    setParts(this.shared, mix);
     setFalseColour(this.shared, scale);
     this.applyDisplay();
   }
@@ -150,7 +166,8 @@ export class BakedScene {
     for (const { abort } of this.pending.values()) abort.abort();
     this.city.dispose();
     for (const light of this.kept.values()) light.dispose();
-    for (const texture of [...this.lampTextures, ...(this.skyViewTextures ?? [])]) texture.dispose();
+    for (const texture of this.lampTextures) texture.dispose();
+    this.measures.dispose();
     this.sky.dispose();
   }
 
@@ -215,14 +232,5 @@ export class BakedScene {
     const blend = this.shared.uBlend.value;
     const hint = (a ?? 1) ** (1 - blend) * (b ?? 1) ** blend; // even in stops
     this.shared.uExposure.value = exposureFactor(hint, this.ev, this.picture);
-  }
-
-  private async loadSkyView(): Promise<void> {
-    if (this.skyViewTextures) return;
-    const pages = this.bake.manifest.pages.map(async ({ svf, width, height }) => ({ url: this.bake.url(svf), bytes: await this.bake.fetch(svf, () => {}), width, height }));
-    const textures = await makeShareTextures(await Promise.all(pages));
-    if (this.skyViewTextures) return textures.forEach((texture) => texture.dispose()); // asked for twice
-    this.skyViewTextures = textures;
-    this.city.pages.forEach((page, p) => (page.uSkyViewPage.value = textures[p] ?? null));
   }
 }

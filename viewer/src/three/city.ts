@@ -69,7 +69,7 @@ export async function loadCity(url: string, bytes: Uint8Array<ArrayBuffer>, page
     uSkyPageB: { value: null },
     uSunPageB: { value: null },
     uIndirectPageB: { value: null },
-    uSkyViewPage: { value: null },
+    uMeasurePage: { value: null },
     uLampPage: { value: null },
     uPageSize: { value: new THREE.Vector2(size.width, size.height) },
   }));

@@ -1,12 +1,12 @@
 import * as THREE from 'three';
 import { viridis, type FalseColour } from '../core/false_colour';
-import { lightParts, type LightPart } from '../core/light_parts';
+import { factorOf, lightParts, type LightMix } from '../core/light_parts';
 import type { Picture } from '../core/pictures';
 import { airShader, makeAirUniforms, type AirUniforms } from './air';
 
-const pictureNumber: Record<Picture, number> = { lit: 0, textures: 1, light: 2, illuminance: 3, 'sky-view': 4 };
+const pictureNumber: Record<Picture, number> = { lit: 0, textures: 1, light: 2, illuminance: 3, 'sky-view': 4, layer: 5 };
 /** Not for eyes: lux and distance, as differences need them. */
-const numbersPicture = 5;
+export const numbersPicture = 6;
 /** From this number on a picture shows a measure in false colours. */
 export const firstMeasure = pictureNumber.illuminance;
 
@@ -24,6 +24,8 @@ export interface SharedUniforms extends AirUniforms {
   uScale: THREE.IUniform<THREE.Vector3>;
   /** Factors for the light of sun, sky, reflections and lamps. */
   uParts: THREE.IUniform<THREE.Vector4>;
+  /** Colours of a study's layer, by its grey level. */
+  uRamp: THREE.IUniform<THREE.Texture | null>;
 }
 
 /** The lightmap textures of one page, shared by the materials that lie in it; B: of the instant that the one on show fades into. */
@@ -34,7 +36,8 @@ export interface PageUniforms {
   uSkyPageB: THREE.IUniform<THREE.Texture | null>;
   uSunPageB: THREE.IUniform<THREE.Texture | null>;
   uIndirectPageB: THREE.IUniform<THREE.Texture | null>;
-  uSkyViewPage: THREE.IUniform<THREE.Texture | null>;
+  /** Of the sky view, or of the study's layer on show. */
+  uMeasurePage: THREE.IUniform<THREE.Texture | null>;
   uLampPage: THREE.IUniform<THREE.Texture | null>;
   uPageSize: THREE.IUniform<THREE.Vector2>;
 }
@@ -49,6 +52,7 @@ export function makeSharedUniforms(): SharedUniforms {
     uPicture: { value: 0 },
     ...makeAirUniforms(),
     uParts: { value: new THREE.Vector4(1, 1, 1, 1) },
+    uRamp: { value: null },
   };
 }
 
@@ -64,8 +68,8 @@ export function setFalseColour(uniforms: SharedUniforms, { low, high, isLogarith
   uniforms.uScale.value.set(low, high, isLogarithmic ? 1 : 0);
 }
 
-export function setPartsOff(uniforms: SharedUniforms, off: readonly LightPart[]): void {
-  uniforms.uParts.value.fromArray(lightParts.map((part) => (off.includes(part) ? 0 : 1)));
+export function setParts(uniforms: SharedUniforms, mix: LightMix): void {
+  uniforms.uParts.value.fromArray(lightParts.map((part) => factorOf(mix, part)));
 }
 
 /**
@@ -144,7 +148,8 @@ uniform sampler2D uIndirectPage;
 uniform sampler2D uSkyPageB;
 uniform sampler2D uSunPageB;
 uniform sampler2D uIndirectPageB;
-uniform sampler2D uSkyViewPage;
+uniform sampler2D uMeasurePage;
+uniform sampler2D uRamp;
 uniform sampler2D uLampPage;
 uniform vec4 uParts;
 uniform vec2 uPageSize;
@@ -202,7 +207,13 @@ void main() {
   vec2 dy = dFdy(vLightUv) * uPageSize;
   float level = clamp(0.5 * log2(max(max(dot(dx, dx), dot(dy, dy)), 1e-8)), 0.0, 1.0);
   if (uPicture == ${pictureNumber['sky-view']}) {
-    outColor = falseColour(textureLod(uSkyViewPage, vLightUv, level).r);
+    outColor = falseColour(textureLod(uMeasurePage, vLightUv, level).r);
+    return;
+  }
+  if (uPicture == ${pictureNumber.layer}) {
+    float grey = textureLod(uMeasurePage, vLightUv, level).r;
+    int last = textureSize(uRamp, 0).x - 1;
+    outColor = texelFetch(uRamp, ivec2(int(grey * float(last) + 0.5), 0), 0);
     return;
   }
   vec3 illuminance = lightOf(uSkyPage, uSunPage, uIndirectPage, vScale, uSunKlx[0], level);

@@ -3,14 +3,14 @@ import type { Bake } from '../core/bake';
 import { momentOfOther, type Comparison } from '../core/comparison';
 import type { FalseColour } from '../core/false_colour';
 import type { OnBytes } from '../core/fetch';
-import type { LightPart } from '../core/light_parts';
+import { wholeLight, type LightMix } from '../core/light_parts';
 import type { Mode, Picture } from '../core/pictures';
 import { sceneToWorld, worldToScene, type Vec3 } from '../core/units';
 import { BakedScene } from './baked_scene';
 import type { Hit, SurfacePoint } from './city_rays';
 import { DifferencePass } from './difference';
 import { OrbitMode } from './orbit';
-import { WalkMode, type WalkKey } from './walk';
+import { WalkMode } from './walk';
 
 export interface ViewerOptions {
   antialias: boolean;
@@ -55,7 +55,8 @@ export class Viewer {
   private divider = 0.5;
   private differenceLx = 1;
   private difference: DifferencePass | null = null;
-  private partsOff: readonly LightPart[] = [];
+  private currentMix = wholeLight;
+  private currentLayer: string | null = null;
   private currentMode: Mode = 'orbit';
   private currentPicture: Picture = 'lit';
   private currentEv = 0;
@@ -164,13 +165,23 @@ export class Viewer {
     this.applyDisplay();
   }
 
-  /** Parts of the light that the city is shown without. */
-  get off(): readonly LightPart[] {
-    return this.partsOff;
+  /** How much of each part of the light is shown. */
+  get mix(): LightMix {
+    return this.currentMix;
   }
 
-  set off(parts: readonly LightPart[]) {
-    this.partsOff = parts;
+  set mix(mix: LightMix) {
+    this.currentMix = mix;
+    this.applyDisplay();
+  }
+
+  /** Id of the study's layer that the picture of that name shows. */
+  get layer(): string | null {
+    return this.currentLayer;
+  }
+
+  set layer(id: string | null) {
+    this.currentLayer = id;
     this.applyDisplay();
   }
 
@@ -249,7 +260,14 @@ export class Viewer {
     return { position: sceneToWorld(this.camera.position.toArray()), target: sceneToWorld((target ?? new THREE.Vector3()).toArray()) };
   }
 
-  /** Flies to a view. In walk mode the mode becomes orbit. */
+  /** On the way to a view through the air. From walk mode it is there at once, in orbit. */
+  flyTo(position: Vec3, target: Vec3): void {
+    if (this.currentMode === 'walk' || !this.orbit) return this.lookAt(position, target);
+    this.orbit.fly(new THREE.Vector3(...worldToScene(position)), new THREE.Vector3(...worldToScene(target)));
+    this.changed();
+  }
+
+  /** Looks from a place at once. In walk mode the mode becomes orbit. */
   lookAt(position: Vec3, target: Vec3): void {
     this.leaveWalk();
     this.orbit?.look(new THREE.Vector3(...worldToScene(position)), new THREE.Vector3(...worldToScene(target)));
@@ -304,8 +322,30 @@ export class Viewer {
     if (this.currentMode === 'walk') this.walk?.walk(along, aside, metres);
   }
 
-  pressWalkKey(key: WalkKey, isDown: boolean): void {
-    if (this.currentMode === 'walk') this.walk?.press(key, isDown);
+  /** How far a touch stick is pushed, forward and to the right, each −1…1. */
+  steer(along: number, aside: number): void {
+    if (this.currentMode === 'walk') this.walk?.steer(along, aside);
+  }
+
+  /** On foot: to the open place nearest to a world position, looking on in the same direction. In the air: on the way to above it. False when it cannot be reached. */
+  goTo([x, y]: readonly [number, number]): boolean {
+    const { baked, orbit, walk } = this;
+    if (!baked || !orbit) return false;
+    const [sceneX, , sceneZ] = worldToScene([x, y, 0]);
+    if (this.currentMode === 'walk' && walk) {
+      const place = baked.ground.openPlaceNear(sceneX, sceneZ);
+      return place !== null && walk.stand(place.feet.setY(place.feet.y + 1), walk.yaw, walk.pitch);
+    }
+    const below = baked.ground.below(new THREE.Vector3(sceneX, baked.city.bounds.max.y + 1, sceneZ));
+    const target = new THREE.Vector3(sceneX, below?.y ?? orbit.target.y, sceneZ);
+    orbit.fly(target.clone().add(this.camera.position).sub(orbit.target), target);
+    this.changed();
+    return true;
+  }
+
+  /** The bake that was opened first. */
+  get scene(): BakedScene | null {
+    return this.baked;
   }
 
   /** A view of the whole city from the side that the first instant's sun lights. */
@@ -380,7 +420,8 @@ export class Viewer {
   private applyDisplay(): void {
     this.changed();
     const show = async (): Promise<void> => {
-      for (const baked of [this.baked, this.other]) await baked?.show(this.currentPicture, this.currentEv, this.isAirSeen, this.partsOff, this.currentScale);
+      const display = { picture: this.currentPicture, ev: this.currentEv, isAirSeen: this.isAirSeen, mix: this.currentMix, scale: this.currentScale, layer: this.currentLayer };
+      for (const baked of [this.baked, this.other]) await baked?.show(display);
     };
     show().then(() => this.changed(), this.options.onError);
   }

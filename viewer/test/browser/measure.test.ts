@@ -8,7 +8,7 @@ import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 import { colourOf } from '../../src/core/false_colour';
 import type { Manifest } from '../../src/core/generated/manifest';
 import { luminance } from '../../src/core/units';
-import type { Measured } from '../../src/app/measuring';
+import type { Measured } from '../../src/app/reading';
 import { findChromium, launch, openPage } from '../support/chromium';
 import { fixtureBeam, whiteCard, writeFixture } from '../support/fixture';
 import { serve, type Host } from '../support/static_host';
