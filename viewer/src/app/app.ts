@@ -5,7 +5,7 @@ import { titleOf } from '../core/layer_colours';
 import { changedParts, wholeLight, withFactor, withPartOn, type LightMix } from '../core/light_parts';
 import { LoadError } from '../core/load_error';
 import { clampMoment, formatInstant, momentLabel } from '../core/moment';
-import { isMeasure, type Mode, type Picture } from '../core/pictures';
+import { isMeasure, showsLight, type Mode, type Picture } from '../core/pictures';
 import { text } from '../core/text';
 import { parseViewState, type ViewState } from '../core/view_state';
 import { Viewer } from '../three/viewer';
@@ -103,7 +103,8 @@ export class App {
     this.helpDialog = new HelpDialog(this.comparing !== null);
     const stick = touchStick({ steer: (along, aside) => this.viewer.steer(along, aside), step: (along, aside) => this.viewer.walkBy(along, aside, 0.5) });
     document.body.append(
-      this.panel.opener, this.panel.root, this.map.root, this.measuring.panel.root, this.legend.root, stick, this.measuring.marker, this.helpDialog.root);
+      this.panel.opener, this.panel.root, this.map.root, this.measuring.panel.root, this.legend.root, stick, ...(this.comparing?.roots ?? []), this.measuring.marker,
+      this.helpDialog.root);
     const isPhone = matchMedia('(pointer: coarse)').matches && innerWidth < narrowPage;
     if (isPhone) this.panel.show(false); // a phone shows the city first
     this.restore(this.address.read);
@@ -337,7 +338,7 @@ export class App {
       if (this.comparing.shown.shown === 'difference') legend = differenceLegend(range, mix, parts);
     }
     this.legend.show(legend);
-    this.measuring.viewChanged(changedParts(mix, parts).length > 0);
+    this.measuring.viewChanged(changedParts(mix, parts).length > 0 && showsLight(picture));
     this.help.textContent = text.help[mode] + (this.comparing ? text.compare.keys : '') + text.help.more;
     document.body.dataset['mode'] = mode;
     this.viewChanged();

@@ -21,7 +21,6 @@ export class Comparing {
       show: (shown) => this.set({ ...this.state, shown }),
       divide: (divider) => this.set({ ...this.state, divider }),
     });
-    document.body.append(this.bar.root, this.bar.divider);
     document.body.classList.add('compares');
   }
 
@@ -34,6 +33,10 @@ export class Comparing {
     progress.begin(text.loading(text.compare.part), other.bytesOf('city.glb'));
     await viewer.openOther(other, progress.advance);
     return new Comparing(namesOf(own, other), onChange);
+  }
+
+  get roots(): HTMLElement[] {
+    return [this.bar.root, this.bar.divider];
   }
 
   get shown(): Shown {

@@ -18,7 +18,7 @@ export function titleOf({ title, unit }: Layer, hasUnit = true): string {
 
 /** A value with its unit; differences have a sign. */
 export function formatQuantity({ unit, kind, minimum, maximum }: Layer, value: number): string {
-  const digits = Math.max(0, 2 - Math.floor(Math.log10(Math.max(Math.abs(minimum), Math.abs(maximum), 1e-6)))); // thousandths of the range
+  const digits = Math.min(9, Math.max(0, 4 - Math.floor(Math.log10(Math.max(Math.abs(minimum), Math.abs(maximum), 1e-6))))); // finer than a ten-thousandth of the range
   const sign = kind === 'diverging' && value !== 0 ? (value > 0 ? '+' : '−') : value < 0 ? '−' : '';
   return `${sign}${Math.abs(value).toLocaleString(language, { maximumFractionDigits: digits })} ${unitOf(unit)}`.trim();
 }

@@ -10,6 +10,11 @@ export function isMeasure(picture: Picture): boolean {
   return picture === 'illuminance' || picture === 'sky-view' || picture === 'layer';
 }
 
+/** Pictures that change with the parts of the light. */
+export function showsLight(picture: Picture): boolean {
+  return picture === 'lit' || picture === 'light' || picture === 'illuminance';
+}
+
 export function isPicture(value: unknown): value is Picture {
   return pictures.some((known) => known === value);
 }

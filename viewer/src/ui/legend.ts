@@ -52,6 +52,7 @@ export class Legend {
   /** @param content null: nothing to explain */
   show(content: LegendContent | null): void {
     this.root.hidden = content === null;
+    document.body.classList.toggle('has-legend', content !== null);
     if (!content) return;
     this.title.textContent = content.title;
     this.root.setAttribute('aria-label', content.title);

@@ -36,6 +36,7 @@ export class MeasurePanel {
   showReading(reading: Reading | null, takesFocus = false): void {
     if (this.root.hidden && takesFocus) this.returnFocus = document.activeElement instanceof HTMLElement ? document.activeElement : null;
     this.root.hidden = false;
+    document.body.classList.add('measures');
     this.content.replaceChildren(...(reading ? this.body(reading) : [element('p', { class: 'note' }, [text.measure.reading])]));
     this.content.dataset['lx'] = reading ? String(reading.lx) : '';
     if (takesFocus) this.close.focus();
@@ -50,6 +51,7 @@ export class MeasurePanel {
   hide(): void {
     const hadFocus = this.root.contains(document.activeElement);
     this.root.hidden = true;
+    document.body.classList.remove('measures');
     if (hadFocus) this.returnFocus?.focus();
     this.returnFocus = null;
   }

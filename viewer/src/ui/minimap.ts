@@ -20,6 +20,8 @@ export interface Whereabouts {
 }
 
 const step = 0.04;
+/** An eye beyond the map is shown this far from its edge. */
+const rim = 0.04;
 
 /** The city from above, with the place of the eye; a click goes there. Keyboard: arrows move a cross, Enter goes there. */
 export class Minimap {
@@ -82,7 +84,7 @@ export class Minimap {
   private place(): void {
     const { plan, whereabouts } = this;
     if (!plan || !whereabouts || !this.isShown) return;
-    const share = (value: number, low: number, high: number): number => Math.min(1, Math.max(0, (value - low) / (high - low)));
+    const share = (value: number, low: number, high: number): number => Math.min(1 - rim, Math.max(rim, (value - low) / (high - low)));
     const left = share(whereabouts.x, plan.west, plan.east);
     const top = 1 - share(whereabouts.y, plan.south, plan.north);
     const isOff = whereabouts.x < plan.west || whereabouts.x > plan.east || whereabouts.y < plan.south || whereabouts.y > plan.north;

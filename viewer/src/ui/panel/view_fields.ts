@@ -63,7 +63,7 @@ export class ViewFields {
     this.list.replaceChildren(...views.map(({ name }) => {
       const go = element('button', { type: 'button', class: 'go', title: text.ownViews.go(name) }, [name]);
       go.addEventListener('click', () => this.actions.ownView(name));
-      const copy = element('button', { type: 'button', 'aria-label': text.ownViews.copy(name), title: text.ownViews.copy(name) }, ['⧉']);
+      const copy = element('button', { type: 'button', 'aria-label': text.ownViews.copy(name), title: text.ownViews.copy(name) }, [element('span', { class: 'copy-icon' })]);
       copy.addEventListener('click', () => this.actions.copyView(name));
       const forget = element('button', { type: 'button', 'aria-label': text.ownViews.delete(name), title: text.ownViews.delete(name) }, ['✕']);
       forget.addEventListener('click', () => this.actions.deleteView(name));
