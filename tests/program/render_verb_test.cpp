@@ -200,7 +200,7 @@ TEST_F(RenderVerb, ALinkScalesPartsAndNamesLayersThatStillsDoNotDraw) {
     const auto both = [&](const std::string& link, const std::string& parts) {
         ASSERT_EQ(render({"-o", a, "--size", "16x16", "--camera", view + link}, &err), 0) << err;
         ASSERT_EQ(render({"-o", b, "--size", "16x16", "--camera", view, "--parts", parts}, &err), 0) << err;
-        EXPECT_EQ(read_file(a), read_file(b)) << link;
+        EXPECT_EQ(text_of(a), text_of(b)) << link;
     };
     both("&k=sun:0.50", "sun=0.5,sky");
     both("&k=sun:0.50,sky:2&off=sun", "sun=0,sky=2");
