@@ -1,36 +1,44 @@
 // A plan drawn from heights alone: ground dark, what stands on it pale, both shaded by a light from the north-west as maps have it.
 
-/** How far about a cell its ground is looked for, and how high something must stand over it to be a building, metres. */
+/** What is narrower than twice this and stands higher than that over what is beside it is a building, not a hill or a bank, metres. By eye, on towns and suburbs. */
 const groundReach = 30;
-const lowestBuilding = 2.5;
+const lowestBuilding = 3;
 
 type Code = readonly [number, number, number];
 const ground: Code = [74, 84, 96];
 const building: Code = [214, 207, 192];
 
-/** The lowest value within `reach` entries of a line, by van Herk's passes in short: a plain scan is fast enough at a map's size. */
-function lowestAlong(values: Float32Array, start: number, stride: number, count: number, reach: number): number[] {
+/**
+ * Of each entry of a line, the extreme of those within `reach`; a plain scan is fast enough at a map's size. Towards the ends of the line the reach shrinks to two fifths,
+ * as slopes that rise to the edge of the city would be cut otherwise.
+ */
+function extremesAlong(values: Float32Array, start: number, stride: number, count: number, reach: number, extreme: (a: number, b: number) => number): number[] {
   return Array.from({ length: count }, (_, i) => {
-    let lowest = Infinity;
-    for (let k = Math.max(0, i - reach); k <= Math.min(count - 1, i + reach); ++k) {
+    let found = values[start + i * stride] ?? NaN;
+    const near = Math.max(Math.ceil(0.4 * reach), Math.min(reach, i, count - 1 - i));
+    for (let k = Math.max(0, i - near); k <= Math.min(count - 1, i + near); ++k) {
       const value = values[start + k * stride] ?? NaN;
-      if (value < lowest) lowest = value;
+      if (!Number.isNaN(value)) found = Number.isNaN(found) ? value : extreme(found, value);
     }
-    return lowest;
+    return found;
   });
 }
 
-/** The lowest height in the square about each cell; Infinity where there is none. */
-export function groundBelow(metres: Float32Array, columns: number, rows: number, reach: number): Float32Array {
-  const low = Float32Array.from(metres, (value) => (Number.isNaN(value) ? Infinity : value));
-  for (let row = 0; row < rows; ++row) low.set(lowestAlong(low, row * columns, 1, columns, reach), row * columns);
-  for (let column = 0; column < columns; ++column) lowestAlong(low, column, columns, rows, reach).forEach((value, row) => (low[row * columns + column] = value));
-  return low;
+function extremes(metres: Float32Array, columns: number, rows: number, reach: number, extreme: (a: number, b: number) => number): Float32Array {
+  const found = Float32Array.from(metres);
+  for (let row = 0; row < rows; ++row) found.set(extremesAlong(found, row * columns, 1, columns, reach, extreme), row * columns);
+  for (let column = 0; column < columns; ++column) extremesAlong(found, column, columns, rows, reach, extreme).forEach((value, row) => (found[row * columns + column] = value));
+  return found;
+}
+
+/** Heights without what is narrower than `2 reach + 1` cells: the morphological opening by a square (Serra, "Image Analysis and Mathematical Morphology", 1982, II.C). Slopes and wide hills stay. */
+export function groundOf(metres: Float32Array, columns: number, rows: number, reach: number): Float32Array {
+  return extremes(extremes(metres, columns, rows, reach, Math.min), columns, rows, reach, Math.max);
 }
 
 /** RGBA, rows from north to south; transparent where nothing is. `cellM`: metres a cell. */
 export function shadePlan({ metres, columns, rows }: { metres: Float32Array; columns: number; rows: number }, cellM: number): Uint8ClampedArray<ArrayBuffer> {
-  const low = groundBelow(metres, columns, rows, Math.ceil(groundReach / cellM));
+  const low = groundOf(metres, columns, rows, Math.ceil(groundReach / cellM));
   const pixels = new Uint8ClampedArray(4 * columns * rows);
   const at = (column: number, row: number): number => metres[Math.min(rows - 1, Math.max(0, row)) * columns + Math.min(columns - 1, Math.max(0, column))] ?? NaN;
   for (let row = 0; row < rows; ++row) {

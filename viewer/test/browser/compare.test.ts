@@ -58,8 +58,7 @@ describe.skipIf(!chromium)('two bakes', () => {
   });
 
   test('the link restores the comparison', async () => {
-    await at.page.waitForTimeout(500);
-    expect(at.page.url()).toContain('&c=swipe,0.750');
+    await at.linkHas('&c=swipe,0.750');
     const opened = await at.another(at.page.url());
     expect(await opened.page.getByRole('slider', { name: 'Divider between A and B' }).getAttribute('aria-valuenow')).toBe('75');
     expect(differing(await canvas(opened.page, size.width, size.height), await shown())).toBe(0);

@@ -23,7 +23,7 @@ describe.skipIf(!chromium)('layers of a study', () => {
     // Of the grey level that the picture holds.
     const stored = layer.minimum + ((layer.maximum - layer.minimum) * Math.round((255 * (value - layer.minimum)) / (layer.maximum - layer.minimum))) / 255;
     const expected = layerColour(layer, scaleOf(layer), stored).map((code) => expect.closeTo(code, -0.3)); // within 1
-    await expect.poll(middle, { timeout: 20_000 }).toEqual(expected);
+    await expect.poll(middle).toEqual(expected);
     const measured = (await at.page.evaluate(() => window.skybake!.measureAt(320, 240)))!;
     expect(measured.layer).toEqual({ id, value });
   });
@@ -46,8 +46,7 @@ describe.skipIf(!chromium)('layers of a study', () => {
     await legend.getByLabel('to', { exact: true }).fill('625');
     await legend.getByLabel('to', { exact: true }).blur();
     await expect.poll(async () => (await middle())[1]!).toBeGreaterThan(120); // 612.5: the middle of the range
-    await at.page.waitForTimeout(500);
-    expect(at.page.url()).toContain('&s=layer&l=irradiation&');
+    await at.linkHas('&s=layer&l=irradiation&');
     expect(at.page.url()).toContain('&fc=600,625,lin');
     const opened = await at.another(at.page.url());
     await opened.page.getByRole('region', { name: 'Solar energy in a year, kWh/m²' }).waitFor();
@@ -110,8 +109,7 @@ describe.skipIf(!chromium)('light by parts', () => {
     await at.page.getByRole('slider', { name: 'Sky: how much of it' }).focus();
     for (let i = 0; i < 4; ++i) await at.page.keyboard.press('ArrowRight');
     await at.page.getByRole('checkbox', { name: 'Lamps' }).uncheck();
-    await at.page.waitForTimeout(500);
-    expect(at.page.url()).toContain('&off=lamps&k=sky:1.20');
+    await at.linkHas('&off=lamps&k=sky:1.20');
     const opened = await at.another(at.page.url());
     expect(await opened.page.getByRole('slider', { name: 'Sky: how much of it' }).getAttribute('aria-valuetext')).toBe('120 %');
     expect(await opened.page.getByRole('checkbox', { name: 'Lamps' }).isChecked()).toBe(false);

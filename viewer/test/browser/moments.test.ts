@@ -43,8 +43,7 @@ describe.skipIf(!chromium)('moments of the synthetic bake', () => {
     await at.page.waitForFunction(() => Math.abs(window.skybake!.view().moment - 0.3) < 1e-6);
     expect(await slider.getAttribute('aria-valuetext')).toBe('≈ 21.06.2026, 12:42'); // 0.3 of 10:00 to 19:00
     expect(await at.page.locator('.panel').first().textContent()).toContain('Überblendung');
-    await at.page.waitForTimeout(500);
-    expect(at.page.url()).toContain('&i=0&f=0.30');
+    await at.linkHas('&i=0&f=0.30');
     const opened = await at.another(at.page.url());
     expect(await opened.page.evaluate(() => window.skybake!.view().moment)).toBeCloseTo(0.3, 6);
     await opened.page.close();
@@ -60,7 +59,7 @@ describe.skipIf(!chromium)('moments of the synthetic bake', () => {
     expect(await at.page.evaluate(() => window.skybake!.view().moment)).toBeLessThanOrEqual(stopped + 0.05); // the step that was under way
   });
 
-  test('the at.page speaks German', async () => {
+  test('the page speaks German', async () => {
     expect(await at.page.evaluate(() => document.documentElement.lang)).toBe('de');
     await at.page.getByRole('button', { name: 'Zu Fuß' }).click();
     expect(await at.page.locator('.help').textContent()).toContain('Pfeile: gehen');
@@ -69,7 +68,7 @@ describe.skipIf(!chromium)('moments of the synthetic bake', () => {
 
   test('the language is switched without losing the view', async () => {
     await at.page.evaluate(() => window.skybake!.setCamera([30, -40, 25], [0, 0, 4]));
-    await at.page.waitForTimeout(500);
+    await at.linkHas('&p=30.00,-40.00,25.00&');
     await at.page.getByLabel('Sprache').selectOption('en');
     await at.page.getByRole('button', { name: 'Walk', exact: true }).waitFor();
     await at.page.evaluate(() => window.skybake!.ready);

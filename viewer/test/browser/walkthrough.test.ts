@@ -99,8 +99,7 @@ describe.skipIf(!chromium)('the walkthrough of the synthetic bake', () => {
     const withAir = await canvas(at.page, size.width, size.height);
     await at.page.getByLabel('Haze over distance').uncheck();
     expect(differingShare(withAir, await canvas(at.page, size.width, size.height))).toBeGreaterThan(0.3);
-    await at.page.waitForTimeout(500);
-    expect(at.page.url()).toContain('&a=0');
+    await at.linkHas('&a=0');
     await at.page.locator('body > canvas').focus();
     await at.page.keyboard.press('f');
     expect(differingShare(withAir, await canvas(at.page, size.width, size.height))).toBe(0);
@@ -234,7 +233,7 @@ describe.skipIf(!chromium)('the walkthrough of the synthetic bake', () => {
       window.skybake!.walkFrom([-8, -34, 1.7], [4, 10, 5]);
     });
     const sent = await at.page.evaluate(() => window.skybake!.view());
-    await at.page.waitForTimeout(500);
+    await at.linkHas('m=walk&p=-8.00,-34.00');
     const link = at.page.url();
     const opened = await at.another(link);
     const got = await opened.page.evaluate(() => window.skybake!.view());

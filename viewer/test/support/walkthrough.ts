@@ -23,6 +23,8 @@ export interface Walkthrough {
   problems: string[];
   /** Another page of the same size; the block closes it with its browser. */
   another(url: string, isReady?: boolean): Promise<{ page: Page; problems: string[] }>;
+  /** Waits until the address, which follows the view a little later, has these words. */
+  linkHas(words: string): Promise<void>;
 }
 
 export interface WalkthroughOptions {
@@ -48,6 +50,7 @@ export function useWalkthrough({ size, query = 'lang=en', isPhone = false, isCom
       else await opened.page.goto(url);
       return opened;
     };
+    at.linkHas = (words) => expect.poll(() => at.page.url()).toContain(words);
     Object.assign(at, await at.another(`${at.host.url}?antialias=off&${query}${isCompared ? '&compare=compare/' : ''}`));
   });
   afterAll(async () => {
