@@ -124,7 +124,7 @@ class PagePainter {
                 albedo *= scene_.textures[*material.texture].at(uv, footprint, material.wrap);
             }
         }
-        const Rgb luminance = albedo * light_.at(texel, 1.0f) / static_cast<float>(kPi);
+        const Rgb luminance = albedo * light_.bilinear(texel) / static_cast<float>(kPi);
         const Rgb shown = agx_tone_mapped(settings_.exposure * luminance);
         for (int c = 0; c < 3; ++c)
             pixels_[3 * at(x, y) + static_cast<std::size_t>(c)] = dithered_srgb(shown[c], x, size_.y - 1 - y);

@@ -108,11 +108,11 @@ export class App {
     const isPhone = matchMedia('(pointer: coarse)').matches && innerWidth < narrowPage;
     if (isPhone) this.panel.show(false); // a phone shows the city first
     this.restore(this.address.read);
-    await this.showMoment(this.address.read.moment ?? 0);
-    if (!isPhone && innerWidth >= widePage && innerHeight >= highPage) this.showMap(true);
-    listenForClicks(this.canvas, (at) => void this.measuring.at(this.mouseLook.isOn ? this.middle : at, false));
+    listenForClicks(this.canvas, (at) => void this.measuring.at(this.mouseLook.isOn ? this.middle : at, false)); // who sees the first pages may walk
     listenForKeys(this);
     window.addEventListener('hashchange', () => this.restoreFromLink());
+    await this.showMoment(this.address.read.moment ?? 0);
+    if (!isPhone && innerWidth >= widePage && innerHeight >= highPage) this.showMap(true);
   }
 
   private makePanel(title: string, { manifest }: Bake, views: Views): Panel {
@@ -170,8 +170,7 @@ export class App {
     const missing = this.viewer.missingFor(moment);
     const label = momentLabel(instants, moment);
     if (missing.length > 0) {
-      const sizes = missing.map((index) => bake.bytesOfInstant(index));
-      const total = sizes.reduce<number | null>((sum, bytes) => (sum === null || bytes === null ? null : sum + bytes), 0);
+      const total = this.viewer.bytesMissingFor(moment);
       this.progress.begin(text.loading(text.loadingParts.light(missing.map((index) => formatInstant(instants[index]?.label ?? '')).join(', '))), total);
     }
     try {

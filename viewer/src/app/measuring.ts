@@ -1,6 +1,7 @@
 import type { Vec3 } from '../core/units';
 import { text } from '../core/text';
-import type { Picked, Viewer } from '../three/viewer';
+import type { Picked } from '../three/bake_pair';
+import type { Viewer } from '../three/viewer';
 import { element } from '../ui/element';
 import { MeasurePanel } from '../ui/measure_panel';
 import { readPlace, type Measured } from './reading';
@@ -37,7 +38,7 @@ export class Measuring {
       return;
     }
     this.picked = picked;
-    this.place = this.viewer.worldOf(picked);
+    this.place = picked.world;
     this.moveMarker();
     this.panel.showReading(null, isByKey);
     await this.read(picked);
@@ -62,7 +63,7 @@ export class Measuring {
     const question = ++this.question;
     this.shownKey = this.key();
     try {
-      const { reading, measured } = await readPlace(picked, { twin: viewer.pickTwin(picked), isOther: viewer.isOther(picked), layer: this.layer });
+      const { reading, measured } = await readPlace(picked, { twin: viewer.pickTwin(picked), layer: this.layer });
       if (question !== this.question) return;
       this.last = measured;
       this.panel.showReading(reading);

@@ -7,7 +7,7 @@ import { text } from '../core/text';
 import { language } from '../core/text/language';
 import { sceneToWorld, type Vec3 } from '../core/units';
 import { reflectanceAt } from '../three/reflectance';
-import type { Picked } from '../three/viewer';
+import type { Picked } from '../three/bake_pair';
 import type { Reading } from '../ui/measure_panel';
 import { sunPathOf } from './sun_path';
 
@@ -32,20 +32,19 @@ export interface Measured {
 
 /** What the view around the place has to do with its numbers. */
 export interface MeasureContext {
-  /** The same place of the bake that is compared with, and which of both was clicked. */
+  /** The same place of the bake that is compared with. */
   twin: Picked | null;
-  isOther: boolean;
   /** Id of the study's layer on show. */
   layer: string | null;
 }
 
 /** Reads the archives at the texel of a place. Throws LoadError. */
-export async function readPlace(picked: Picked, { twin, isOther, layer: layerId }: MeasureContext): Promise<{ reading: Reading; measured: Measured }> {
+export async function readPlace(picked: Picked, { twin, layer: layerId }: MeasureContext): Promise<{ reading: Reading; measured: Measured }> {
   const { baked: { bake, moment }, hit, surface } = picked;
   const { manifest } = bake;
   const instant = Math.round(moment);
-  const { page, column, row, width, height } = texelOf(picked);
-  const middle = sceneToWorld(surface.pointAt(new THREE.Vector2((column + 0.5) / width, (row + 0.5) / height)).toArray());
+  const { page, column, row } = texelOf(picked);
+  const middle = sceneToWorld(surface.pointAt(new THREE.Vector2(column + 0.5, row + 0.5)).toArray());
   const normal = sceneToWorld(hit.normal.toArray());
   const layer = bake.layer(layerId);
   const [light, objects, twinLight, value] = await Promise.all([
@@ -68,8 +67,8 @@ export async function readPlace(picked: Picked, { twin, isOther, layer: layerId 
     parts: light.parts.map(({ part, lx }) => ({ name: text.partNames[part], lx })),
     facts: [
       ...(twinLight === null ? [] : [
-        { name: isOther ? 'A' : 'B', value: text.measure.lux(twinLight) },
-        { name: text.measure.change, value: text.measure.signedLux((isOther ? 1 : -1) * (light.total - twinLight)) },
+        { name: picked.isOther ? 'A' : 'B', value: text.measure.lux(twinLight) },
+        { name: text.measure.change, value: text.measure.signedLux((picked.isOther ? 1 : -1) * (light.total - twinLight)) },
       ]),
       ...factsOf(owner),
       { name: text.measure.skyView, value: light.skyViewFactor.toLocaleString(language, { maximumFractionDigits: 3 }) },
@@ -89,11 +88,9 @@ export async function readPlace(picked: Picked, { twin, isOther, layer: layerId 
 }
 
 /** The texel of the lightmap that holds the place. */
-function texelOf({ baked: { bake }, surface }: Picked): { page: number; column: number; row: number; width: number; height: number } {
-  const page = Number((surface.mesh.userData as { page?: number }).page ?? 0);
+function texelOf({ baked: { bake }, surface: { page, texel } }: Picked): { page: number; column: number; row: number } {
   const { width, height } = bake.manifest.pages[page] ?? { width: 1, height: 1 };
-  const column = Math.min(width - 1, Math.floor(surface.lightUv.x * width));
-  return { page, column, row: Math.min(height - 1, Math.floor(surface.lightUv.y * height)), width, height };
+  return { page, column: Math.min(width - 1, Math.floor(texel.x)), row: Math.min(height - 1, Math.floor(texel.y)) };
 }
 
 async function lightAt(picked: Picked): Promise<number> {

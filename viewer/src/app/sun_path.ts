@@ -5,7 +5,7 @@ import { domeOf, hoursInView, sunPath, type SunPoint } from '../core/obstruction
 import { text } from '../core/text';
 import { language } from '../core/text/language';
 import { worldToScene, type Vec3 } from '../core/units';
-import type { Picked } from '../three/viewer';
+import type { Picked } from '../three/bake_pair';
 import { sunChart } from '../ui/sun_chart';
 
 /** Rays to the sky begin this far off the surface, metres. */

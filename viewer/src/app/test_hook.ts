@@ -4,7 +4,7 @@ import { withFactor, withPartOn, type LightPart } from '../core/light_parts';
 import type { Mode, Picture } from '../core/pictures';
 import type { Vec3 } from '../core/units';
 import type { Measured } from './reading';
-import type { ViewerStats } from '../three/viewer';
+import type { ViewerStats } from '../three/stats';
 
 /**
  * `window.skybake`: what browser tests (and a curious console) hold on to. Positions are local world metres, z up.

@@ -12,7 +12,7 @@ import { text } from './text';
 
 export type BakedInstant = Manifest['instants'][number];
 
-/** The light of one instant as it stands in the files; the PNG pages are still encoded. */
+/** The light of one instant as it stands in the files, without its pages. */
 export interface InstantLight {
   /** Two a chart: scale of the sky's page (klx), scale of the sun's page (cosine). */
   scales: Float32Array<ArrayBuffer>;
@@ -21,14 +21,15 @@ export interface InstantLight {
   panorama: Panorama;
   /** Null in a bake without a sky. */
   airlight: Airlight | null;
-  pages: { sky: EncodedPage; sun: EncodedPage; indirect: EncodedPage | null }[];
 }
 
-/** Direct light of lamps, the same at all instants. */
-export interface LampLight {
-  /** One a chart: scale of the lamps' page (klx). */
-  scales: Float32Array<ArrayBuffer>;
-  pages: EncodedPage[];
+/** A page of an instant; the PNGs are still encoded. */
+export interface InstantPage {
+  sky: EncodedPage;
+  /** Null without a beam. */
+  sun: EncodedPage | null;
+  /** Null in a bake without reflected light. */
+  indirect: EncodedPage | null;
 }
 
 export interface EncodedPage {
@@ -91,20 +92,31 @@ export class Bake {
     return instant;
   }
 
-  /** Download size of an instant, or null when the manifest does not list all of its files. */
+  /** Download size of what an instant alone needs, or null when the manifest does not list all of its files. */
   bytesOfInstant(index: number): number | null {
-    const instant = this.instant(index);
-    const uris = [instant.scales.uri, instant.sky.panorama.uri, ...instant.pages.flatMap((page) => [page.sky, page.sun])];
-    if (instant.indirect_scales) uris.push(instant.indirect_scales.uri);
-    if (instant.air) uris.push(instant.air.airlight.uri);
-    for (const page of instant.pages) if (page.indirect) uris.push(page.indirect);
-    let sum = 0;
-    for (const uri of uris) {
-      const bytes = this.bytesOf(uri);
-      if (bytes === null) return null;
-      sum += bytes;
-    }
-    return sum;
+    const { scales, indirect_scales: indirectScales, sky, air, pages } = this.instant(index);
+    return this.bytesOfAll([
+      scales.uri, sky.panorama.uri, indirectScales?.uri, air?.airlight.uri,
+      ...pages.flatMap((page) => [page.sky, this.hasBeam(index) ? page.sun : undefined, page.indirect]),
+    ]);
+  }
+
+  /** Download size of the lamps' pages, or null when the manifest does not list them. */
+  bytesOfLamps(): number | null {
+    return this.bytesOfAll(this.manifest.pages.map(({ lamps }) => lamps));
+  }
+
+  private bytesOfAll(uris: readonly (string | undefined)[]): number | null {
+    return uris.reduce<number | null>((sum, uri) => {
+      const bytes = uri === undefined ? 0 : this.bytesOf(uri);
+      return sum === null || bytes === null ? null : sum + bytes;
+    }, 0);
+  }
+
+  /** Whether the sun shines. */
+  private hasBeam(index: number): boolean {
+    const { sun } = this.instant(index);
+    return sun.shape !== 'none' && sun.normal_illuminance_klx.some((klx) => klx > 0);
   }
 
   fetch(uri: string, onBytes: OnBytes, signal?: AbortSignal): Promise<Uint8Array<ArrayBuffer>> {
@@ -159,53 +171,60 @@ export class Bake {
 
   /** The parts of light that are in the files of an instant, or of all. */
   partsOf(index: number): LightPart[] {
-    const instant = this.instant(index);
     const has: Record<LightPart, boolean> = {
-      sun: instant.sun.shape !== 'none' && instant.sun.normal_illuminance_klx.some((klx) => klx > 0),
+      sun: this.hasBeam(index),
       sky: true,
-      indirect: instant.indirect_scales !== undefined,
+      indirect: this.instant(index).indirect_scales !== undefined,
       lamps: this.manifest.lamp_scales !== undefined,
     };
     return lightParts.filter((part) => has[part]);
   }
 
-  /** The lamps' light; null in a bake without lamps. Throws LoadError. */
-  async loadLamps(onBytes: OnBytes): Promise<LampLight | null> {
-    const { lamp_scales: scales, pages, charts } = this.manifest;
-    if (!scales) return null;
-    return {
-      scales: parseScales(this.url(scales.uri), await this.fetch(scales.uri, onBytes), charts),
-      pages: await Promise.all(pages.map(async ({ lamps, width, height }) => {
-        if (lamps === undefined) throw new LoadError(this.manifestUrl, text.error.noLampPage);
-        return { url: this.url(lamps), bytes: await this.fetch(lamps, onBytes), width, height };
-      })),
-    };
+  /** Scales of the lamps' pages, one a chart (klx), the same at all instants; null in a bake without lamps. Throws LoadError. */
+  async loadLampScales(onBytes: OnBytes): Promise<Float32Array<ArrayBuffer> | null> {
+    const { lamp_scales: scales, charts } = this.manifest;
+    return scales ? parseScales(this.url(scales.uri), await this.fetch(scales.uri, onBytes), charts) : null;
   }
 
-  /** All files of an instant at once. Throws LoadError; rejects when `signal` aborts. */
-  async loadInstant(index: number, chartCount: number, onBytes: OnBytes, signal?: AbortSignal): Promise<InstantLight> {
+  /** A page of the lamps' light. Throws LoadError. */
+  async loadLampPage(page: number, onBytes: OnBytes): Promise<EncodedPage> {
+    const uri = this.manifest.pages[page]?.lamps;
+    if (uri === undefined) throw new LoadError(this.manifestUrl, text.error.noLampPage);
+    return this.loadPage(uri, page, onBytes);
+  }
+
+  /** What an instant needs before its pages. Throws LoadError; rejects when `signal` aborts. */
+  async loadInstant(index: number, onBytes: OnBytes, signal?: AbortSignal): Promise<InstantLight> {
     const instant = this.instant(index);
-    const page = async (uri: string, pageIndex: number): Promise<EncodedPage> => {
-      const { width, height } = this.manifest.pages[pageIndex] ?? { width: 0, height: 0 };
-      return { url: this.url(uri), bytes: await this.fetch(uri, onBytes, signal), width, height };
-    };
+    const { charts } = this.manifest;
     const scalesOf = (uri: string, count: number): Promise<Float32Array<ArrayBuffer>> =>
       this.fetch(uri, onBytes, signal).then((bytes) => parseScales(this.url(uri), bytes, count));
-    const [scales, indirectScales, panorama, airlight, pages] = await Promise.all([
-      scalesOf(instant.scales.uri, 2 * chartCount),
-      instant.indirect_scales ? scalesOf(instant.indirect_scales.uri, chartCount) : null,
+    const [scales, indirectScales, panorama, airlight] = await Promise.all([
+      scalesOf(instant.scales.uri, 2 * charts),
+      instant.indirect_scales ? scalesOf(instant.indirect_scales.uri, charts) : null,
       this.fetch(instant.sky.panorama.uri, onBytes, signal).then((bytes) =>
         Panorama.fromBytes(this.url(instant.sky.panorama.uri), bytes, instant.sky.panorama.width, instant.sky.panorama.height),
       ),
       instant.air ? this.loadAirlight(instant.air.airlight, onBytes, signal) : null,
-      Promise.all(
-        instant.pages.map(async (files, p) => {
-          const [sky, sun, indirect] = await Promise.all([page(files.sky, p), page(files.sun, p), files.indirect ? page(files.indirect, p) : null]);
-          return { sky, sun, indirect };
-        }),
-      ),
     ]);
-    return { scales, indirectScales, panorama, airlight, pages };
+    return { scales, indirectScales, panorama, airlight };
+  }
+
+  /** A page of an instant. Throws LoadError; rejects when `signal` aborts. */
+  async loadInstantPage(index: number, page: number, onBytes: OnBytes, signal?: AbortSignal): Promise<InstantPage> {
+    const files = this.instant(index).pages[page];
+    if (!files) throw new RangeError('no such page');
+    const [sky, sun, indirect] = await Promise.all([
+      this.loadPage(files.sky, page, onBytes, signal),
+      this.hasBeam(index) ? this.loadPage(files.sun, page, onBytes, signal) : null,
+      files.indirect ? this.loadPage(files.indirect, page, onBytes, signal) : null,
+    ]);
+    return { sky, sun, indirect };
+  }
+
+  async loadPage(uri: string, page: number, onBytes: OnBytes, signal?: AbortSignal): Promise<EncodedPage> {
+    const { width, height } = this.manifest.pages[page] ?? { width: 0, height: 0 };
+    return { url: this.url(uri), bytes: await this.fetch(uri, onBytes, signal), width, height };
   }
 
   private async loadAirlight({ uri, columns, rows }: { uri: string; columns: number; rows: number }, onBytes: OnBytes, signal?: AbortSignal): Promise<Airlight> {

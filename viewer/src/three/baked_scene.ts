@@ -1,5 +1,5 @@
 import * as THREE from 'three';
-import type { Bake, LampLight } from '../core/bake';
+import type { Bake } from '../core/bake';
 import { exposureFactor } from '../core/exposure';
 import type { FalseColour } from '../core/false_colour';
 import type { OnBytes } from '../core/fetch';
@@ -7,17 +7,18 @@ import type { LightMix } from '../core/light_parts';
 import { LoadError } from '../core/load_error';
 import type { Picture } from '../core/pictures';
 import { text } from '../core/text';
-import { makeSharedUniforms, setFalseColour, setNumbersPicture, setParts, setPicture, type SharedUniforms } from './city_material';
+import { makeSharedUniforms, mostPages, setFalseColour, setNumbersPicture, setParts, setPicture, type SharedUniforms } from './city_material';
 import { loadCity, type City } from './city';
 import { CityRays } from './city_rays';
 import { Ground } from './ground';
-import { applyLight, makeLampTextures, makeLightTextures, type LightTextures } from './light';
+import { Instants } from './instants';
+import { PageLayers, type LayerPainter } from './layers';
+import { applyLight, decodePage, type InstantTextures } from './light';
 import { MeasurePages } from './measure_pages';
+import { pagesByNearness } from './page_order';
 import { SkyDome } from './sky';
 
 const cityUri = 'city.glb';
-/** Instants kept on the graphics card: the two of a fade, and the one that was left last. */
-const instantsKept = 3;
 
 /** The instants that a moment shows: one, or the two that it fades between. */
 function instantsOf(moment: number): number[] {
@@ -42,11 +43,12 @@ export interface Display {
 export class BakedScene {
   readonly scene = new THREE.Scene();
   private readonly sky: SkyDome;
-  private readonly kept = new Map<number, LightTextures>(); // the one used last stands last
+  private readonly instants: Instants;
+  private lamps: Promise<void> | null = null;
   private readonly measures: MeasurePages;
+  private lampLayers: PageLayers | null = null;
   private raysBuilt: CityRays | null = null;
   private groundBuilt: Ground | null = null;
-  private readonly pending = new Map<number, { light: Promise<LightTextures>; abort: AbortController }>();
   private wantedMoment = -1;
   private shownMoment = -1;
   /** Another bake whose exposure this one takes, so that both can be compared. */
@@ -59,23 +61,26 @@ export class BakedScene {
     readonly bake: Bake,
     readonly city: City,
     private readonly shared: SharedUniforms,
-    private readonly lamps: LampLight | null,
-    private readonly lampTextures: readonly THREE.Texture[],
+    private readonly lampScales: Float32Array<ArrayBuffer> | null,
+    private readonly painter: LayerPainter,
+    private readonly onChange: () => void,
   ) {
+    const { pages } = bake.manifest;
     this.sky = new SkyDome(shared);
-    this.measures = new MeasurePages(bake, city.pages, shared);
-    city.pages.forEach((page, p) => (page.uLampPage.value = lampTextures[p] ?? null));
+    this.measures = new MeasurePages(bake, painter, shared);
+    this.instants = new Instants(bake, lampScales, painter, onChange);
+    shared.uPageSize.value.set(Math.max(...pages.map(({ width }) => width)), Math.max(...pages.map(({ height }) => height)));
     this.scene.add(this.sky.mesh, city.group);
   }
 
-  /** Loads the city; the light comes with showMoment(). Throws LoadError. */
-  static async open(bake: Bake, maxAnisotropy: number, onBytes: OnBytes): Promise<BakedScene> {
+  /** Loads the city; the light comes with showMoment(). `onChange`: what is on show changed by itself. Throws LoadError. */
+  static async open(bake: Bake, painter: LayerPainter, maxAnisotropy: number, onBytes: OnBytes, onChange: () => void): Promise<BakedScene> {
     const shared = makeSharedUniforms();
     const bytes = await bake.fetch(cityUri, onBytes);
-    const city = await loadCity(bake.url(cityUri), bytes, bake.manifest.pages, shared, maxAnisotropy);
+    const city = await loadCity(bake.url(cityUri), bytes, bake.manifest.pages, shared, painter, maxAnisotropy);
+    if (bake.manifest.pages.length > Math.min(mostPages, painter.mostLayers)) throw new LoadError(bake.manifestUrl, text.error.tooManyPages(bake.manifest.pages.length, painter.mostLayers));
     if (city.chartCount > bake.manifest.charts) throw new LoadError(bake.url(cityUri), text.error.tooManyCharts(city.chartCount, bake.manifest.charts));
-    const lamps = await bake.loadLamps(onBytes);
-    return new BakedScene(bake, city, shared, lamps, lamps ? await makeLampTextures(lamps) : []);
+    return new BakedScene(bake, city, shared, await bake.loadLampScales(onBytes), painter, onChange);
   }
 
   /** Number of the instant on show; between two of them while they fade; −1 before the first. */
@@ -89,32 +94,29 @@ export class BakedScene {
 
   /** Bytes of light on the graphics card. */
   get lightBytes(): number {
-    let bytes = 0;
-    for (const light of this.kept.values()) bytes += light.bytes;
-    const lampTexels = this.lampTextures.length > 0 ? this.bake.manifest.pages.reduce((sum, { width, height }) => sum + width * height, 0) : 0;
-    return bytes + Math.round((16 / 3) * lampTexels);
+    return this.instants.bytes + (this.lampLayers?.bytes ?? 0) + this.measures.bytes;
   }
 
   /**
-   * Loads what a moment needs and shows it: an instant, or the cross-fade of its two neighbours. A later call overtakes an earlier one;
-   * false when this one was overtaken. Throws LoadError.
+   * Loads what a moment needs and shows it: an instant, or the cross-fade of its two neighbours. The very first is on show with its first
+   * page, those nearest to `eye` (scene coordinates) first. A later call overtakes an earlier one; false when this one was overtaken. Throws LoadError.
    */
-  async showMoment(moment: number, onBytes: OnBytes): Promise<boolean> {
+  async showMoment(moment: number, eye: THREE.Vector3, onBytes: OnBytes): Promise<boolean> {
     this.wantedMoment = moment;
     const needed = instantsOf(moment);
-    for (const [index, { abort }] of this.pending) {
-      if (needed.includes(index)) continue;
-      abort.abort();
-      this.pending.delete(index);
-    }
+    const order = pagesByNearness(this.city, this.bake.manifest.pages.length, eye);
+    const loading = needed.map((index) => this.instants.use(index, order, onBytes));
+    this.instants.forgetBut([...needed, ...this.instantsOnShow()]);
     try {
-      const pair = await Promise.all(needed.map((index) => this.lightOf(index, onBytes)));
+      if (this.shownMoment < 0) {
+        await loading[0]?.started;
+        if (this.wantedMoment !== moment) return false;
+        this.present(Math.floor(moment), loading.slice(0, 1).flatMap(({ textures }) => textures ?? []));
+      }
+      await Promise.all([...loading.map(({ whole }) => whole), this.loadLamps(order, onBytes)]);
       if (this.wantedMoment !== moment) return false;
-      pair.forEach((light, k) => this.applyInstant(k === 0 ? 0 : 1, needed[k] ?? 0, light));
-      this.shared.uBlend.value = moment - Math.floor(moment);
-      this.shownMoment = moment;
-      this.forgetOld();
-      this.applyDisplay();
+      this.present(moment, loading.flatMap(({ textures }) => textures ?? []));
+      this.instants.forgetBut(needed);
       return true;
     } catch (error) {
       if (this.wantedMoment !== moment) return false;
@@ -123,9 +125,25 @@ export class BakedScene {
     }
   }
 
+  private present(moment: number, light: readonly InstantTextures[]): void {
+    const needed = instantsOf(moment);
+    light.forEach((textures, k) => this.applyInstant(k === 0 ? 0 : 1, needed[k] ?? 0, textures));
+    this.shared.uBlend.value = moment - Math.floor(moment);
+    this.shownMoment = moment;
+    this.applyDisplay();
+    this.onChange();
+  }
+
   /** Which instants would have to be fetched for a moment. */
   missingFor(moment: number): number[] {
-    return instantsOf(moment).filter((index) => !this.kept.has(index));
+    return instantsOf(moment).filter((index) => !this.instants.isWhole(index));
+  }
+
+  /** Download size of what a moment still needs; null when the manifest does not list it. */
+  bytesMissingFor(moment: number): number | null {
+    const sizes = this.missingFor(moment).map((index) => this.bake.bytesOfInstant(index));
+    if (this.lampScales && !this.lamps) sizes.push(this.bake.bytesOfLamps());
+    return sizes.reduce<number | null>((sum, bytes) => (sum === null || bytes === null ? null : sum + bytes), 0);
   }
 
   /** How the light is shown. Throws LoadError when the picture needs a file that cannot be read. */
@@ -163,10 +181,9 @@ export class BakedScene {
   }
 
   dispose(): void {
-    for (const { abort } of this.pending.values()) abort.abort();
     this.city.dispose();
-    for (const light of this.kept.values()) light.dispose();
-    for (const texture of this.lampTextures) texture.dispose();
+    this.instants.dispose();
+    this.lampLayers?.dispose();
     this.measures.dispose();
     this.sky.dispose();
   }
@@ -175,49 +192,10 @@ export class BakedScene {
     return this.shownMoment < 0 ? [] : instantsOf(this.shownMoment);
   }
 
-  private async lightOf(index: number, onBytes: OnBytes): Promise<LightTextures> {
-    const known = this.kept.get(index);
-    if (known) {
-      this.kept.delete(index);
-      this.kept.set(index, known);
-      return known;
-    }
-    const underWay = this.pending.get(index);
-    if (underWay) return underWay.light;
-    const abort = new AbortController();
-    const load = async (): Promise<LightTextures> => {
-      try {
-        const files = await this.bake.loadInstant(index, this.bake.manifest.charts, onBytes, abort.signal);
-        const light = await makeLightTextures(files, this.lamps?.scales ?? null);
-        if (abort.signal.aborted) {
-          light.dispose();
-          throw new DOMException('overtaken', 'AbortError');
-        }
-        this.kept.set(index, light);
-        return light;
-      } finally {
-        if (this.pending.get(index)?.abort === abort) this.pending.delete(index);
-      }
-    };
-    const light = load();
-    this.pending.set(index, { light, abort });
-    return light;
-  }
-
-  private applyInstant(slot: 0 | 1, index: number, light: LightTextures): void {
+  private applyInstant(slot: 0 | 1, index: number, light: InstantTextures): void {
     const instant = this.bake.instant(index);
-    applyLight(slot, light, instant, this.shared, this.city.pages);
+    applyLight(slot, light, instant, this.shared);
     this.sky.apply(slot, light.panorama, instant, this.bake.manifest.bounds.min[2] ?? 0);
-  }
-
-  private forgetOld(): void {
-    const onShow = this.instantsOnShow();
-    for (const [index, light] of this.kept) {
-      if (this.kept.size <= instantsKept) return;
-      if (onShow.includes(index)) continue;
-      light.dispose();
-      this.kept.delete(index);
-    }
   }
 
   private applyDisplay(): void {
@@ -232,5 +210,24 @@ export class BakedScene {
     const blend = this.shared.uBlend.value;
     const hint = (a ?? 1) ** (1 - blend) * (b ?? 1) ** blend; // even in stops
     this.shared.uExposure.value = exposureFactor(hint, this.ev, this.picture);
+  }
+
+  private async loadLamps(order: readonly number[], onBytes: OnBytes): Promise<void> {
+    if (!this.lampScales) return;
+    this.lamps ??= this.loadLampPages(order, onBytes).catch((error: unknown) => {
+      this.lamps = null; // the next question asks again
+      throw error;
+    });
+    await this.lamps;
+  }
+
+  /** The lamps' pages, on show as they come. Throws LoadError. */
+  private async loadLampPages(order: Iterable<number>, onBytes: OnBytes): Promise<void> {
+    const layers = (this.lampLayers ??= new PageLayers(this.painter, this.bake.manifest.pages, 'light'));
+    this.shared.uLamps.value = layers.texture;
+    await Promise.all([...order].map(async (page) => {
+      layers.put(page, await decodePage(await this.bake.loadLampPage(page, onBytes)), null);
+      this.onChange();
+    }));
   }
 }

@@ -1,6 +1,7 @@
 import * as THREE from 'three';
 import { MeshBVH } from 'three-mesh-bvh';
 import type { City } from './city';
+import type { Batch } from './city_batches';
 
 /** Where a ray meets the city. Scene coordinates (y up). */
 export interface Hit {
@@ -13,29 +14,32 @@ export interface Hit {
 
 /** The surface at a place: what leads to its light and its colour. */
 export interface SurfacePoint {
-  mesh: THREE.Mesh<THREE.BufferGeometry, THREE.ShaderMaterial>;
   chart: number;
-  /** Texture and lightmap coordinates of the place. */
+  /** Of the lightmap. */
+  page: number;
+  /** Column and row in that page; centres of texels at ½. */
+  texel: THREE.Vector2;
+  /** Linear. */
+  tint: THREE.Vector3;
+  map: THREE.Texture | null;
   uv: THREE.Vector2 | null;
-  lightUv: THREE.Vector2;
-  /** The place that has other lightmap coordinates on the same plane. */
-  pointAt(lightUv: THREE.Vector2): THREE.Vector3;
+  /** The place on the same plane that has another texel. */
+  pointAt(texel: THREE.Vector2): THREE.Vector3;
 }
 
 /** Rays against all triangles of the city. */
 export class CityRays {
   private constructor(
     private readonly bvh: MeshBVH,
-    private readonly meshes: readonly THREE.Mesh<THREE.BufferGeometry, THREE.ShaderMaterial>[],
+    private readonly batches: readonly Batch[],
     private readonly firstVertex: readonly number[],
   ) {}
 
   /** A tree over all triangles; about half a second per million of them. */
-  static build(city: City): CityRays {
-    const meshes = city.group.children as THREE.Mesh<THREE.BufferGeometry, THREE.ShaderMaterial>[];
+  static build({ batches }: City): CityRays {
     let vertexCount = 0;
     let indexCount = 0;
-    for (const { geometry } of meshes) {
+    for (const { geometry } of batches) {
       vertexCount += geometry.getAttribute('position').count;
       indexCount += geometry.index?.count ?? 0;
     }
@@ -44,7 +48,7 @@ export class CityRays {
     const firstVertex: number[] = [];
     let vertex = 0;
     let slot = 0;
-    for (const { geometry } of meshes) {
+    for (const { geometry } of batches) {
       const source = geometry.getAttribute('position');
       position.set(source.array, vertex * 3);
       const triangles = geometry.index?.array ?? [];
@@ -56,7 +60,7 @@ export class CityRays {
     const merged = new THREE.BufferGeometry();
     merged.setAttribute('position', new THREE.BufferAttribute(position, 3));
     merged.setIndex(new THREE.BufferAttribute(index, 1));
-    return new CityRays(new MeshBVH(merged), meshes, firstVertex);
+    return new CityRays(new MeshBVH(merged), batches, firstVertex);
   }
 
   /** The first thing from a point in a unit direction, from either side. */
@@ -72,10 +76,10 @@ export class CityRays {
     if (!index) return null;
     const corners = [0, 1, 2].map((k) => index.getX(3 * triangle + k));
     const m = this.firstVertex.filter((first) => first <= (corners[0] ?? 0)).length - 1;
-    const mesh = this.meshes[m];
-    if (!mesh) return null;
+    const batch = this.batches[m];
+    if (!batch) return null;
     const [a, b, c] = corners.map((corner) => corner - (this.firstVertex[m] ?? 0)) as [number, number, number];
-    const { geometry } = mesh;
+    const { geometry, maps } = batch;
     const positionOf = (vertex: number): THREE.Vector3 => new THREE.Vector3().fromBufferAttribute(geometry.getAttribute('position'), vertex);
     const [pa, pb, pc] = [positionOf(a), positionOf(b), positionOf(c)];
     const weights = THREE.Triangle.getBarycoord(point, pa, pb, pc, new THREE.Vector3());
@@ -86,15 +90,17 @@ export class CityRays {
     };
     const mixed = (name: string): THREE.Vector2 =>
       coordinates(name, a).multiplyScalar(weights.x).addScaledVector(coordinates(name, b), weights.y).addScaledVector(coordinates(name, c), weights.z);
-    const [la, lb, lc] = [coordinates('uv1', a), coordinates('uv1', b), coordinates('uv1', c)];
+    const [la, lb, lc] = [coordinates('texel', a), coordinates('texel', b), coordinates('texel', c)];
     return {
-      mesh,
-      chart: Math.round(geometry.getAttribute('_chart').getX(a)),
-      uv: geometry.getAttribute('uv') ? mixed('uv') : null,
-      lightUv: mixed('uv1'),
-      pointAt(lightUv) {
-        // Lightmap coordinates are affine in the triangle's plane.
-        const [e, f, g] = [lb.clone().sub(la), lc.clone().sub(la), lightUv.clone().sub(la)];
+      chart: Math.round(geometry.getAttribute('chart').getX(a)),
+      page: geometry.getAttribute('texel').getZ(a),
+      texel: mixed('texel'),
+      tint: new THREE.Vector3().fromBufferAttribute(geometry.getAttribute('tint'), a),
+      map: maps[geometry.getAttribute('layer')?.getX(a) ?? -1] ?? null,
+      uv: maps.length > 0 ? mixed('uv') : null,
+      pointAt(texel) {
+        // Texels are affine in the triangle's plane.
+        const [e, f, g] = [lb.clone().sub(la), lc.clone().sub(la), texel.clone().sub(la)];
         const area = e.cross(f);
         if (area === 0) return point.clone();
         return pa.clone().addScaledVector(pb.clone().sub(pa), g.cross(f) / area).addScaledVector(pc.clone().sub(pa), e.cross(g) / area);

@@ -1,91 +1,64 @@
 import * as THREE from 'three';
-import type { BakedInstant, EncodedPage, InstantLight, LampLight } from '../core/bake';
+import type { BakedInstant, EncodedPage, InstantLight, InstantPage } from '../core/bake';
 import { LoadError } from '../core/load_error';
 import { text } from '../core/text';
 import { applyAir } from './air';
-import type { PageUniforms, SharedUniforms } from './city_material';
-import { scalesWidth } from './city_material';
+import { mostPages, scalesWidth, type SharedUniforms } from './city_material';
+import { PageLayers, type LayerPainter } from './layers';
 
-/** The textures of one instant on the graphics card; dispose() gives their memory back. */
-export interface LightTextures {
-  scales: THREE.DataTexture;
-  pages: { sky: THREE.Texture; sun: THREE.Texture; indirect: THREE.Texture | null }[];
-  panorama: THREE.DataTexture;
-  /** On the graphics card, with the mip levels, bytes. */
-  bytes: number;
-  air: { molecules: THREE.DataTexture; haze: THREE.DataTexture } | null;
-  dispose(): void;
-}
+/** The light of one instant on the graphics card; dispose() gives its memory back. */
+export class InstantTextures {
+  /** A bit a page that is here. */
+  readonly pagesHere = new Int32Array(mostPages / 32);
+  readonly scales: THREE.DataTexture;
+  /** Skylight, and in alpha the sun's cosine. */
+  readonly light: PageLayers;
+  readonly indirect: PageLayers | null;
+  readonly panorama: THREE.DataTexture;
+  readonly air: { molecules: THREE.DataTexture; haze: THREE.DataTexture } | null;
 
-/** The lamps' pages on the graphics card. Throws LoadError. */
-export async function makeLampTextures(lamps: LampLight): Promise<THREE.Texture[]> {
-  const textures = await Promise.all(lamps.pages.map(decodePage));
-  for (const texture of textures) texture.colorSpace = THREE.SRGBColorSpace;
-  return textures;
-}
-
-/** Linear 8-bit shares (the sky view factor) on the graphics card. Throws LoadError. */
-export async function makeShareTextures(pages: readonly EncodedPage[]): Promise<THREE.Texture[]> {
-  const textures = await Promise.all(pages.map(decodePage));
-  for (const texture of textures) {
-    texture.colorSpace = THREE.NoColorSpace;
-    texture.format = THREE.RedFormat;
+  /** @param lampScales of the lamps, that every instant shows too */
+  constructor(files: InstantLight, lampScales: Float32Array<ArrayBuffer> | null, pages: readonly { width: number; height: number }[], painter: LayerPainter) {
+    this.scales = makeScalesTexture(files.scales, files.indirectScales, lampScales);
+    this.light = new PageLayers(painter, pages, 'light');
+    this.indirect = files.indirectScales && new PageLayers(painter, pages, 'light');
+    const { width, height, halves } = files.panorama;
+    this.panorama = makeTurnTexture(halves, width, height);
+    const { airlight } = files;
+    this.air = airlight && {
+      molecules: makeTurnTexture(airlight.molecules, airlight.columns, airlight.rows),
+      haze: makeTurnTexture(airlight.haze, airlight.columns, airlight.rows),
+    };
   }
-  return textures;
-}
 
-/** Decodes the pages of an instant. `lampScales`: of the lamps, that every instant shows too. Throws LoadError when a page is not the picture that the manifest announces. */
-export async function makeLightTextures(light: InstantLight, lampScales: Float32Array<ArrayBuffer> | null): Promise<LightTextures> {
-  const pages = await Promise.all(
-    light.pages.map(async ({ sky, sun, indirect }) => {
-      const [skyTexture, sunTexture, indirectTexture] = await Promise.all([decodePage(sky), decodePage(sun), indirect ? decodePage(indirect) : null]);
-      skyTexture.colorSpace = THREE.SRGBColorSpace;
-      sunTexture.colorSpace = THREE.NoColorSpace;
-      sunTexture.format = THREE.RedFormat;
-      if (indirectTexture) indirectTexture.colorSpace = THREE.SRGBColorSpace;
-      return { sky: skyTexture, sun: sunTexture, indirect: indirectTexture };
-    }),
-  );
-  const scales = makeScalesTexture(light.scales, light.indirectScales, lampScales);
-  const { width, height, halves } = light.panorama;
-  const panorama = makeTurnTexture(halves, width, height);
-  const { airlight } = light;
-  const air = airlight && {
-    molecules: makeTurnTexture(airlight.molecules, airlight.columns, airlight.rows),
-    haze: makeTurnTexture(airlight.haze, airlight.columns, airlight.rows),
-  };
-  const texels = light.pages.reduce((sum, { sky }) => sum + sky.width * sky.height, 0);
-  const bytesATexel = 4 + 1 + (light.indirectScales ? 4 : 0);
-  return {
-    scales,
-    pages,
-    panorama,
-    air,
-    bytes: Math.round((4 / 3) * texels * bytesATexel) + 16 * (light.scales.length / 2) + 8 * width * height,
-    dispose() {
-      scales.dispose();
-      panorama.dispose();
-      air?.molecules.dispose();
-      air?.haze.dispose();
-      for (const { sky, sun, indirect } of pages) {
-        sky.dispose();
-        sun.dispose();
-        indirect?.dispose();
-      }
-    },
-  };
+  /** Decodes a page and shows it. Throws LoadError when it is not the picture that the manifest announces. */
+  async put(page: number, { sky, sun, indirect }: InstantPage, signal: AbortSignal): Promise<void> {
+    const [skyPicture, sunPicture, indirectPicture] = await Promise.all([decodePage(sky), sun && decodePage(sun), indirect && decodePage(indirect)]);
+    signal.throwIfAborted(); // its layers are gone
+    this.light.put(page, skyPicture, sunPicture);
+    if (indirectPicture) this.indirect?.put(page, indirectPicture, null);
+    this.pagesHere[page >> 5] = (this.pagesHere[page >> 5] ?? 0) | (1 << (page & 31));
+  }
+
+  /** On the graphics card. */
+  get bytes(): number {
+    const { width, height } = this.panorama.image;
+    return this.light.bytes + (this.indirect?.bytes ?? 0) + 8 * width * height + 16 * this.scales.image.width * this.scales.image.height;
+  }
+
+  dispose(): void {
+    for (const part of [this.scales, this.light, this.indirect, this.panorama, this.air?.molecules, this.air?.haze]) part?.dispose();
+  }
 }
 
 /** Puts an instant's light into the uniforms that the city's materials share: as the one on show (slot 0), or the one that it fades into. */
-export function applyLight(slot: 0 | 1, textures: LightTextures, instant: BakedInstant, shared: SharedUniforms, pages: readonly PageUniforms[]): void {
+export function applyLight(slot: 0 | 1, textures: InstantTextures, instant: BakedInstant, shared: SharedUniforms): void {
   (slot === 0 ? shared.uScales : shared.uScalesB).value = textures.scales;
+  (slot === 0 ? shared.uLight : shared.uLightB).value = textures.light.texture;
+  (slot === 0 ? shared.uIndirect : shared.uIndirectB).value = textures.indirect?.texture ?? null;
+  if (slot === 0) shared.uPagesHere.value = textures.pagesHere;
   shared.uSunKlx.value[slot].fromArray(instant.sun.normal_illuminance_klx);
   if (instant.air && textures.air) applyAir(shared, slot, instant.air, instant.sun.direction as [number, number, number], textures.air);
-  pages.forEach((page, p) => {
-    (slot === 0 ? page.uSkyPage : page.uSkyPageB).value = textures.pages[p]?.sky ?? null;
-    (slot === 0 ? page.uSunPage : page.uSunPageB).value = textures.pages[p]?.sun ?? null;
-    (slot === 0 ? page.uIndirectPage : page.uIndirectPageB).value = textures.pages[p]?.indirect ?? null;
-  });
 }
 
 /** RGBA half floats, bilinear, whose columns go round. */
@@ -99,7 +72,8 @@ function makeTurnTexture(halves: Uint16Array<ArrayBuffer>, columns: number, rows
   return texture;
 }
 
-async function decodePage(page: EncodedPage): Promise<THREE.Texture> {
+/** Decodes a page. Throws LoadError when it is not the picture that the manifest announces. */
+export async function decodePage(page: EncodedPage): Promise<ImageBitmap> {
   let bitmap: ImageBitmap;
   try {
     // Neither colour management nor premultiplication may touch the numbers: they are light, not a photograph.
@@ -110,14 +84,7 @@ async function decodePage(page: EncodedPage): Promise<THREE.Texture> {
   if (bitmap.width !== page.width || bitmap.height !== page.height) {
     throw new LoadError(page.url, text.error.pageSize(`${bitmap.width} × ${bitmap.height}`, `${page.width} × ${page.height}`));
   }
-  const texture = new THREE.Texture(bitmap);
-  texture.flipY = false;
-  texture.minFilter = THREE.LinearMipmapLinearFilter; // the shader keeps to levels 0 and 1
-  texture.magFilter = THREE.LinearFilter;
-  texture.generateMipmaps = true;
-  texture.needsUpdate = true;
-  texture.onUpdate = () => bitmap.close(); // the card has its copy
-  return texture;
+  return bitmap;
 }
 
 /** A pixel a chart: scales of sky, sun, reflected light and lamps; without the last two their scale is 0, and no page is needed. */

@@ -1,9 +1,10 @@
 import * as THREE from 'three';
-import type { Bake, EncodedPage } from '../core/bake';
+import type { Bake } from '../core/bake';
 import type { FalseColour } from '../core/false_colour';
 import { rampOf, rampSize, type Layer } from '../core/layer_colours';
-import type { PageUniforms, SharedUniforms } from './city_material';
-import { makeShareTextures } from './light';
+import type { SharedUniforms } from './city_material';
+import { PageLayers, type LayerPainter } from './layers';
+import { decodePage } from './light';
 
 /** Of a surface that this bake has no number for. */
 const noNumber = 150;
@@ -12,15 +13,20 @@ const noNumber = 150;
 export class MeasurePages {
   private wanted: string | null = null;
   private shown: string | null = null;
-  private textures: readonly THREE.Texture[] = [];
+  private pages: PageLayers | null = null;
   private ramp: THREE.DataTexture | null = null;
-  private rampKey = '';
+  private rampKey: string | null = null;
 
   constructor(
     private readonly bake: Bake,
-    private readonly pages: readonly PageUniforms[],
+    private readonly painter: LayerPainter,
     private readonly shared: SharedUniforms,
   ) {}
+
+  /** On the graphics card. */
+  get bytes(): number {
+    return this.pages?.bytes ?? 0;
+  }
 
   /** Throws LoadError. */
   async showSkyView(): Promise<void> {
@@ -35,27 +41,26 @@ export class MeasurePages {
   }
 
   dispose(): void {
-    for (const texture of this.textures) texture.dispose();
+    this.pages?.dispose();
     this.ramp?.dispose();
   }
 
+  /** What was on show stays until all pages have come: half of them would be wrong numbers. */
   private async load(key: string, uris: readonly string[]): Promise<void> {
     if (this.shown === key) return;
-    const page = async (uri: string, p: number): Promise<EncodedPage> => {
-      const { width, height } = this.bake.manifest.pages[p] ?? { width: 0, height: 0 };
-      return { url: this.bake.url(uri), bytes: await this.bake.fetch(uri, () => {}), width, height };
-    };
     this.wanted = key;
-    const textures = await makeShareTextures(await Promise.all(uris.map(page)));
-    if (this.wanted !== key || this.shown === key) return textures.forEach((texture) => texture.dispose()); // overtaken, or asked for twice
-    for (const texture of this.textures) texture.dispose();
-    this.textures = textures;
+    const pictures = await Promise.all(uris.map(async (uri, page) => decodePage(await this.bake.loadPage(uri, page, () => {}))));
+    if (this.wanted !== key || this.shown === key) return pictures.forEach((picture) => picture.close()); // overtaken, or asked for twice
+    const pages = new PageLayers(this.painter, this.bake.manifest.pages, 'share');
+    pictures.forEach((picture, page) => pages.put(page, picture, null));
+    this.pages?.dispose();
+    this.pages = pages;
     this.shown = key;
-    this.pages.forEach((uniforms, p) => (uniforms.uMeasurePage.value = textures[p] ?? null));
+    this.shared.uMeasure.value = pages.texture;
   }
 
   private setRamp(layer: Layer | null, scale: FalseColour): void {
-    const key = layer ? `${layer.id} ${scale.low} ${scale.high} ${scale.isLogarithmic}` : '';
+    const key = layer && `${layer.id} ${scale.low} ${scale.high} ${scale.isLogarithmic}`;
     if (this.ramp && key === this.rampKey) return;
     this.rampKey = key;
     this.ramp?.dispose();

@@ -3,17 +3,19 @@ import { luminance, srgbDecode } from '../core/units';
 import type { SurfacePoint } from './city_rays';
 
 /** Luminous reflectance (albedo) of a surface at a place, 0…1, from the very pixel of its texture. */
-export function reflectanceAt({ mesh, uv }: SurfacePoint): number {
-  const { uniforms } = mesh.material;
-  const base = uniforms['uBaseColor']?.value as THREE.Color;
-  const map = uniforms['uMap']?.value as THREE.Texture | null;
+export function reflectanceAt({ tint, map, uv }: SurfacePoint): number {
   const texel = map && uv ? pixelOf(map, uv) : ([1, 1, 1] as const);
-  return luminance([base.r * texel[0], base.g * texel[1], base.b * texel[2]]);
+  return luminance([tint.x * texel[0], tint.y * texel[1], tint.z * texel[2]]);
 }
 
 function pixelOf(map: THREE.Texture, uv: THREE.Vector2): readonly [number, number, number] {
   const image = map.image as ImageBitmap;
-  const place = map.transformUv(uv.clone()); // wraps as the texture does
+  const wrapped = (at: number, wrapping: THREE.Wrapping): number => {
+    if (wrapping === THREE.ClampToEdgeWrapping) return at;
+    const turn = at - 2 * Math.floor(at / 2); // 0…2
+    return wrapping === THREE.MirroredRepeatWrapping && turn > 1 ? 2 - turn : turn % 1;
+  };
+  const place = { x: wrapped(uv.x, map.wrapS), y: wrapped(uv.y, map.wrapT) };
   const canvas = document.createElement('canvas');
   canvas.width = canvas.height = 1;
   const context = canvas.getContext('2d');

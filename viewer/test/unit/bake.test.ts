@@ -66,29 +66,44 @@ describe('Bake', () => {
   test('loads an instant and counts its bytes', async () => {
     let bytes = 0;
     const bake = await Bake.load(`${host.url}manifest.json`, () => undefined);
-    const light = await bake.loadInstant(1, bake.manifest.charts, (count) => (bytes += count));
-    expect(light.pages).toHaveLength(manifest.pages.length);
+    const count = (more: number): number => (bytes += more);
+    const light = await bake.loadInstant(1, count);
     expect(light.scales).toHaveLength(2 * manifest.charts);
+    const pages = await Promise.all(manifest.pages.map((_, p) => bake.loadInstantPage(1, p, count)));
+    expect(pages.every(({ sun }) => sun !== null)).toBe(true);
     expect(bytes).toBe(bake.bytesOfInstant(1));
+  });
+
+  test('without a beam the sun’s pages stay where they are', async () => {
+    const bake = await Bake.load(`${host.url}manifest.json`, () => undefined);
+    const instants = bake.manifest.instants.map((instant) => ({ ...instant, sun: { ...instant.sun, normal_illuminance_klx: [0, 0, 0] as [number, number, number] } }));
+    const night = new Bake({ ...bake.manifest, instants }, bake.manifestUrl);
+    let bytes = 0;
+    const count = (more: number): number => (bytes += more);
+    await night.loadInstant(0, count);
+    for (const p of manifest.pages.keys()) expect((await night.loadInstantPage(0, p, count)).sun).toBeNull();
+    expect(bytes).toBe(night.bytesOfInstant(0));
+    expect(bytes).toBeLessThan(bake.bytesOfInstant(0)!);
   });
 
   test('loads the lamps, and none where there are none', async () => {
     const bake = await Bake.load(`${host.url}manifest.json`, () => undefined);
-    const lamps = await bake.loadLamps(() => undefined);
-    expect(lamps?.pages).toHaveLength(manifest.pages.length);
-    expect(lamps?.scales).toHaveLength(manifest.charts);
+    expect(await bake.loadLampScales(() => undefined)).toHaveLength(manifest.charts);
+    let bytes = 0;
+    for (const p of manifest.pages.keys()) await bake.loadLampPage(p, (count) => (bytes += count));
+    expect(bytes).toBe(bake.bytesOfLamps());
     expect(bake.partsOf(0)).toEqual(['sun', 'sky', 'lamps']);
     const { lamp_scales, ...dark } = bake.manifest;
     expect(lamp_scales).toBeDefined();
     const day = new Bake(dark, bake.manifestUrl);
-    expect(await day.loadLamps(() => undefined)).toBeNull();
+    expect(await day.loadLampScales(() => undefined)).toBeNull();
     expect(day.partsOf(0)).toEqual(['sun', 'sky']);
   });
 
   test('a file of another size than announced is a damaged copy', async () => {
     const bake = await Bake.load(`${host.url}manifest.json`, () => undefined);
     const cut = new Bake({ ...bake.manifest, files: bake.manifest.files.map((f) => (f.name === 'light/i0_scales.bin' ? { ...f, bytes: f.bytes + 1 } : f)) }, bake.manifestUrl);
-    await expect(cut.loadInstant(0, cut.manifest.charts, () => undefined)).rejects.toThrow(/Copy the bake again/);
+    await expect(cut.loadInstant(0, () => undefined)).rejects.toThrow(/Copy the bake again/);
   });
 
   test('a missing file is told with its address', async () => {
@@ -99,7 +114,7 @@ describe('Bake', () => {
   test('an overtaken load stops', async () => {
     const bake = await Bake.load(`${host.url}manifest.json`, () => undefined);
     const abort = new AbortController();
-    const loading = bake.loadInstant(0, bake.manifest.charts, () => undefined, abort.signal);
+    const loading = bake.loadInstant(0, () => undefined, abort.signal);
     abort.abort();
     await expect(loading).rejects.toMatchObject({ name: 'AbortError' });
   });

@@ -257,6 +257,7 @@ export const german: Text = {
     noLightmap: (material) => `Das Material „${material}“ nennt keine Lightmap-Seite (SKYBAKE_lightmap).`,
     noLampPage: 'Die Beschreibung nennt Lampen, aber eine Seite ohne deren Licht.',
     noInstants: 'Die Berechnung enthält keine Zeit, also kein Licht.',
+    tooManyPages: (pages: number, layers: number) => `Der Bake hat ${pages} Lichtseiten, diese Grafikkarte fasst ${layers}. Mit längerem --texel backen, oder einen Teil der Stadt.`,
     tooManyCharts: (got, expected) => `Das Modell nennt ${got} Charts, die Beschreibung ${expected}. Sie gehören nicht zusammen.`,
     noCoordinates: (mesh) => `Dem Netz „${mesh}“ fehlt TEXCOORD_1 oder _CHART; ohne sie hat es kein Licht.`,
     noWebGl: 'Dieser Browser bietet kein WebGL 2, mit dem der Rundgang zeichnet.',

@@ -254,6 +254,7 @@ export const english = {
     noLightmap: (material: string) => `The material “${material}” names no lightmap page (SKYBAKE_lightmap).`,
     noLampPage: 'The bake’s description names lamps, but a page without their light.',
     noInstants: 'The bake holds no instant, so there is no light to show.',
+    tooManyPages: (pages: number, layers: number) => `The bake has ${pages} pages of light, this graphics card holds ${layers}. Bake with a longer --texel, or a part of the city.`,
     tooManyCharts: (got: number, expected: number) => `The model speaks of ${got} charts; the bake’s description has ${expected}. They belong to different bakes.`,
     noCoordinates: (mesh: string) => `The mesh “${mesh}” lacks TEXCOORD_1 or _CHART, without which it cannot be lit.`,
     noWebGl: 'This browser offers no WebGL 2, which the walkthrough draws with.',
