@@ -3,8 +3,9 @@ import { describe, expect, test } from 'vitest';
 import { momentOfOther } from '../../src/core/comparison';
 import { differenceColours } from '../../src/core/false_colour';
 import type { Manifest } from '../../src/core/generated/manifest';
-import { canvas } from '../support/walkthrough_page';
+import { serve } from '../support/static_host';
 import { chromium, testConsole, useWalkthrough } from '../support/walkthrough';
+import { canvas, dist } from '../support/walkthrough_page';
 
 const size = { width: 800, height: 480 };
 
@@ -100,6 +101,16 @@ describe.skipIf(!chromium)('two bakes', () => {
     const opened = await at.another(`${at.host.url}?lang=en&compare=http://127.0.0.1:9/b/`, false);
     await opened.page.getByRole('alert').filter({ hasText: 'same host' }).waitFor();
     await opened.page.close();
+  });
+
+  test('bakes of one title are named by their folders, at the divider and in the bar', async () => {
+    const host = await serve([dist, at.folder], (name, bytes) => (bytes && name.endsWith('manifest.json') ? Buffer.from(bytes.toString().replace(/"title": "T.*? houses"/, '"title": "Square"')) : bytes));
+    const opened = await at.another(`${host.url}?antialias=off&lang=en&compare=compare/&a=before&b=after%20planning`);
+    expect(await opened.page.getByRole('heading', { level: 1 }).textContent()).toBe('Square');
+    expect(await opened.page.locator('.compare .side').allTextContents()).toEqual(['A: before', 'B: after planning']);
+    expect(await opened.page.locator('.divider .flag').allTextContents()).toEqual(['A: before', 'B: after planning']);
+    await opened.page.close();
+    await host.close();
   });
 
   testConsole(at);

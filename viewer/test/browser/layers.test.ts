@@ -1,9 +1,9 @@
 // What a study found out, as layers; and light by parts: pictures of numbers that say what they show. On the synthetic bake.
-import { describe, expect, test } from 'vitest';
-import { layerColour, rampOf, rampSize, scaleOf } from '../../src/core/layer_colours';
-import { parseManifest } from '../../src/core/bake';
 import fs from 'node:fs';
 import path from 'node:path';
+import { describe, expect, test } from 'vitest';
+import { parseManifest } from '../../src/core/bake';
+import { layerColour, rampOf, rampSize, scaleOf } from '../../src/core/layer_colours';
 import { whiteCard } from '../support/fixture';
 import { cardLayers } from '../support/fixture_layers';
 import { chromium, testConsole, useWalkthrough } from '../support/walkthrough';
