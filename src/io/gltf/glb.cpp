@@ -219,7 +219,11 @@ class GlbWriter {
             out.put(static_cast<std::uint32_t>(size_));
             out.put(std::uint32_t{0x004e4942});  // "BIN"
             write_geometry(out);
-            write_images(out);
+            const std::span<const EmbeddedImage> images = palette_.images;
+            write_images(out, images.subspan(atlas_.pages.size()));
+            for (const WeldedPrimitive& p : mesh_.primitives)
+                for_each_vertex(p, [&](ChartId, const WeldedVertex& v) { out.put(y_up(v.normal)); });
+            write_images(out, images.first(atlas_.pages.size()));
         }
         out.flush();
         file.commit();
@@ -254,21 +258,33 @@ class GlbWriter {
         return accessors_.size() - 1;
     }
 
+    /// A view for each of the images [begin, end).
+    std::vector<std::size_t> add_image_views(std::size_t begin, std::size_t end) {
+        std::vector<std::size_t> views;
+        for (std::size_t i = begin; i < end; ++i) views.push_back(add_view(palette_.images[i].size, 0, 0));
+        return views;
+    }
+
     std::string plan() {
         Json primitives = Json::array();
         std::uint64_t textured_vertices = 0;
+        std::vector<std::size_t> materials;
+        std::vector<std::size_t> image_views;
         for (const WeldedPrimitive& p : mesh_.primitives) {
             is_textured_.push_back(palette_.has_texture(scene_.materials[p.material.index()]));
             if (is_textured_.back()) textured_vertices += p.vertex_end - p.vertex_begin;
+            materials.push_back(palette_.add_material(p.material, p.page));
         }
         if (!mesh_.primitives.empty()) {
             const std::uint64_t vertices = mesh_.vertex_corner.size();
             const std::size_t positions = add_view(12 * vertices, 12, kArrayBuffer);
-            const std::size_t normals = add_view(12 * vertices, 12, kArrayBuffer);
             const std::size_t light_uvs = add_view(8 * vertices, 8, kArrayBuffer);
             const std::size_t charts = add_view(4 * vertices, 4, kArrayBuffer);
             const std::size_t albedo_uvs = textured_vertices > 0 ? add_view(8 * textured_vertices, 8, kArrayBuffer) : 0;
             const std::size_t indices = add_view(4 * mesh_.indices.size(), 0, kElementArrayBuffer);
+            image_views = add_image_views(atlas_.pages.size(), palette_.images.size());
+            // From here on stands what the walkthrough does without: it stops reading.
+            const std::size_t normals = add_view(12 * vertices, 12, kArrayBuffer);
             std::uint64_t textured_begin = 0;
             for (std::size_t i = 0; i < mesh_.primitives.size(); ++i) {
                 const WeldedPrimitive& p = mesh_.primitives[i];
@@ -295,13 +311,14 @@ class GlbWriter {
                                         {"TEXCOORD_1", light_uv},
                                         {"_CHART", chart}}},
                                       {"indices", index},
-                                      {"material", palette_.add_material(p.material, p.page)}});
+                                      {"material", materials[i]}});
             }
         }
         Json images = Json::array();
-        for (const EmbeddedImage& image : palette_.images) {
-            images.push_back({{"bufferView", add_view(image.size, 0, 0)}, {"mimeType", image.mime_type}});
-        }
+        const std::vector<std::size_t> page_views = add_image_views(0, atlas_.pages.size());
+        image_views.insert(image_views.begin(), page_views.begin(), page_views.end());
+        for (std::size_t i = 0; i < image_views.size(); ++i)
+            images.push_back({{"bufferView", image_views[i]}, {"mimeType", palette_.images[i].mime_type}});
         Json pages = Json::array();
         for (const AtlasPage& page : atlas_.pages) pages.push_back({{"width", page.width}, {"height", page.height}});
 
@@ -347,9 +364,6 @@ class GlbWriter {
             for_each_vertex(p, [&](ChartId, const WeldedVertex& v) { out.put(y_up(v.position)); });
         }
         for (const WeldedPrimitive& p : mesh_.primitives) {
-            for_each_vertex(p, [&](ChartId, const WeldedVertex& v) { out.put(y_up(v.normal)); });
-        }
-        for (const WeldedPrimitive& p : mesh_.primitives) {
             const AtlasPage& page = atlas_.pages[p.page.index()];
             const Vec2f size(static_cast<float>(page.width), static_cast<float>(page.height));
             for_each_vertex(p, [&](ChartId, const WeldedVertex& v) { out.put(v.texel / size); });
@@ -366,8 +380,8 @@ class GlbWriter {
         for (const std::uint32_t index : mesh_.indices) out.put(index);
     }
 
-    void write_images(BufferedWriter& out) {
-        for (const EmbeddedImage& image : palette_.images) {
+    static void write_images(BufferedWriter& out, std::span<const EmbeddedImage> images) {
+        for (const EmbeddedImage& image : images) {
             const std::vector<std::uint8_t> file =
                 image.bytes == nullptr ? read_file(image.path) : std::vector<std::uint8_t>();
             const std::vector<std::uint8_t>& bytes = image.bytes == nullptr ? file : *image.bytes;

@@ -30,9 +30,9 @@ struct GlbSummary {
 /// Writes all triangles that belong to a chart, y up (x = east, y = up, z = south; metres about Scene::origin), one
 /// primitive for each scene material and page. TEXCOORD_0 leads into the albedo texture, TEXCOORD_1 into the lightmap
 /// page ([0, 1], v down), `_CHART` is the chart's index. `sky_view_pngs` has an encoded PNG for each page, embedded as
-/// the core occlusion texture. Beside the scene it needs some 20 bytes a triangle; the file itself is streamed. Beside
-/// and renamed (io/file). Throws InputError when the place cannot be written, or the file would pass glTF's limit of 4
-/// GiB.
+/// the core occlusion texture; they and the normals stand last, so that who does without may stop reading. Beside the
+/// scene it needs some 20 bytes a triangle; the file itself is streamed. Beside and renamed (io/file). Throws
+/// InputError when the place cannot be written, or the file would pass glTF's limit of 4 GiB.
 GlbSummary write_glb(const std::filesystem::path& path, const Scene& scene, const Atlas& atlas,
                      std::span<const std::vector<std::uint8_t>> sky_view_pngs, const GlbInfo& info);
 

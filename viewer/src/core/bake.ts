@@ -1,6 +1,6 @@
 import { parseAirlight, type Airlight } from './air';
 import { ExrFile } from './exr';
-import { fetchBytes, fetchRange, type OnBytes } from './fetch';
+import { fetchBytes, fetchRange, fetchStart, type OnBytes } from './fetch';
 import type { Manifest } from './generated/manifest';
 import validateManifest from './generated/validate_manifest.js';
 import type { Layer } from './layer_colours';
@@ -121,6 +121,10 @@ export class Bake {
 
   fetch(uri: string, onBytes: OnBytes, signal?: AbortSignal): Promise<Uint8Array<ArrayBuffer>> {
     return fetchBytes(this.url(uri), this.bytesOf(uri), onBytes, signal);
+  }
+
+  fetchStart(uri: string, onBytes: OnBytes, needed: (soFar: readonly Uint8Array[]) => number | null): Promise<Uint8Array<ArrayBuffer>> {
+    return fetchStart(this.url(uri), this.bytesOf(uri), onBytes, needed);
   }
 
   /** The archive of an instant's light on a page: lx, 32-bit. Only what is asked of it is fetched. */

@@ -9,7 +9,17 @@ export type OnBytes = (count: number) => void;
  * @param expectedBytes size by the manifest, or null when unknown; another size means a damaged copy and is refused
  * @throws LoadError with the address when the file is missing, unreachable or of another size
  */
-export async function fetchBytes(url: string, expectedBytes: number | null, onBytes: OnBytes, signal?: AbortSignal): Promise<Uint8Array<ArrayBuffer>> {
+export function fetchBytes(url: string, expectedBytes: number | null, onBytes: OnBytes, signal?: AbortSignal): Promise<Uint8Array<ArrayBuffer>> {
+  return fetchStart(url, expectedBytes, onBytes, () => null, signal);
+}
+
+/**
+ * The first bytes of a file, as many as `needed` says once it can tell from what has come; null: all, or it cannot tell yet. The connection is dropped then.
+ * As fetchBytes() else.
+ */
+export async function fetchStart(
+  url: string, expectedBytes: number | null, onBytes: OnBytes, needed: (soFar: readonly Uint8Array[]) => number | null, signal?: AbortSignal,
+): Promise<Uint8Array<ArrayBuffer>> {
   let response: Response;
   try {
     response = await fetch(url, signal ? { signal } : {});
@@ -20,6 +30,7 @@ export async function fetchBytes(url: string, expectedBytes: number | null, onBy
   if (!response.ok) throw new LoadError(url, text.error.missing(response.status));
   const chunks: Uint8Array[] = [];
   let size = 0;
+  let enough: number | null = null;
   try {
     if (response.body) {
       const reader = response.body.getReader();
@@ -29,13 +40,19 @@ export async function fetchBytes(url: string, expectedBytes: number | null, onBy
         chunks.push(value);
         size += value.byteLength;
         onBytes(value.byteLength);
+        enough ??= needed(chunks);
+        if (enough !== null && size >= enough) {
+          await reader.cancel();
+          break;
+        }
       }
     }
   } catch (error) {
     if (signal?.aborted) throw error;
     throw new LoadError(url, text.error.unreachable);
   }
-  if (expectedBytes !== null && size !== expectedBytes) throw new LoadError(url, text.error.truncated(size, expectedBytes));
+  const isWhole = enough === null || size < enough;
+  if (isWhole && expectedBytes !== null && size !== expectedBytes) throw new LoadError(url, text.error.truncated(size, expectedBytes));
   const bytes = new Uint8Array(size);
   let offset = 0;
   for (const chunk of chunks) {

@@ -3,12 +3,13 @@ import type { Bake } from '../core/bake';
 import { exposureFactor } from '../core/exposure';
 import type { FalseColour } from '../core/false_colour';
 import type { OnBytes } from '../core/fetch';
+import { bytesNeededOfGlb, closeGlb } from '../core/glb';
 import type { LightMix } from '../core/light_parts';
 import { LoadError } from '../core/load_error';
 import type { Picture } from '../core/pictures';
 import { text } from '../core/text';
 import { makeSharedUniforms, mostPages, setFalseColour, setNumbersPicture, setParts, setPicture, type SharedUniforms } from './city_material';
-import { loadCity, type City } from './city';
+import { cityAttributes, loadCity, type City } from './city';
 import { CityRays } from './city_rays';
 import { Ground } from './ground';
 import { Instants } from './instants';
@@ -76,7 +77,8 @@ export class BakedScene {
   /** Loads the city; the light comes with showMoment(). `onChange`: what is on show changed by itself. Throws LoadError. */
   static async open(bake: Bake, painter: LayerPainter, maxAnisotropy: number, onBytes: OnBytes, onChange: () => void): Promise<BakedScene> {
     const shared = makeSharedUniforms();
-    const bytes = await bake.fetch(cityUri, onBytes);
+    const bytes = await bake.fetchStart(cityUri, onBytes, (soFar) => bytesNeededOfGlb(soFar, cityAttributes));
+    closeGlb(bytes);
     const city = await loadCity(bake.url(cityUri), bytes, bake.manifest.pages, shared, painter, maxAnisotropy);
     if (bake.manifest.pages.length > Math.min(mostPages, painter.mostLayers)) throw new LoadError(bake.manifestUrl, text.error.tooManyPages(bake.manifest.pages.length, painter.mostLayers));
     if (city.chartCount > bake.manifest.charts) throw new LoadError(bake.url(cityUri), text.error.tooManyCharts(city.chartCount, bake.manifest.charts));

@@ -23,6 +23,13 @@ export interface City {
   dispose(): void;
 }
 
+/** What is read of its primitives. */
+export const cityAttributes = ['POSITION', 'TEXCOORD_0', 'TEXCOORD_1', '_CHART'] as const;
+
+interface MeshDef {
+  primitives: { attributes: Record<string, number> }[];
+}
+
 interface MaterialDef {
   occlusionTexture?: unknown;
   normalTexture?: unknown;
@@ -31,13 +38,16 @@ interface MaterialDef {
   pbrMetallicRoughness?: { metallicRoughnessTexture?: unknown };
 }
 
-/** Drops what the baked light replaces before GLTFLoader fetches it: the occlusion texture serves viewers that know no lightmap. */
+/** Drops what the baked light replaces before GLTFLoader reads it: normals and the occlusion texture serve viewers that know no lightmap. They may not even be there. */
 class ForgetReplacedTextures implements GLTFLoaderPlugin {
   readonly name = lightmapExtension;
   constructor(private readonly parser: GLTFParser) {}
 
   async beforeRoot(): Promise<void> {
     const materials = ((this.parser.json as { materials?: MaterialDef[] }).materials ?? []);
+    for (const { primitives } of (this.parser.json as { meshes?: MeshDef[] }).meshes ?? []) {
+      for (const { attributes } of primitives) delete attributes['NORMAL'];
+    }
     for (const material of materials) {
       delete material.occlusionTexture;
       delete material.normalTexture;
@@ -47,7 +57,7 @@ class ForgetReplacedTextures implements GLTFLoaderPlugin {
   }
 }
 
-/** Parses city.glb. `pageSizes` are the manifest's. Throws LoadError when it is no glTF, or when a part of it cannot be lit. */
+/** Parses city.glb, of which `bytesNeededOfGlb` bytes are enough. `pageSizes` are the manifest's. Throws LoadError when it is no glTF, or when a part of it cannot be lit. */
 export async function loadCity(url: string, bytes: Uint8Array<ArrayBuffer>, pageSizes: readonly { width: number; height: number }[], shared: SharedUniforms, painter: LayerPainter, maxAnisotropy: number): Promise<City> {
   const loader = new GLTFLoader();
   loader.register((parser) => new ForgetReplacedTextures(parser));

@@ -44,7 +44,8 @@ export function makeGlb(charts: readonly Chart[], pages: readonly { width: numbe
   const images = ['paving', 'windows'].map((name) => ({ bufferView: addView(encodePng(paint(name))), mimeType: 'image/png' }));
 
   const gltfMaterials: object[] = [];
-  const primitives: object[] = [];
+  const primitives: { attributes: Record<string, number>; indices: number; material: number }[] = [];
+  const normals: number[][] = [];
   for (const [m, material] of materials.entries()) {
     for (const page of pages.keys()) {
       const own = charts.map((chart, index) => ({ chart, index })).filter(({ chart }) => chart.face.material === m && chart.page === page);
@@ -53,12 +54,14 @@ export function makeGlb(charts: readonly Chart[], pages: readonly { width: numbe
       const uv: number[] = [];
       const uv1: number[] = [];
       const chartOf: number[] = [];
+      const normal: number[] = [];
       const index: number[] = [];
       for (const { chart, index: c } of own) {
         const first = chartOf.length;
         for (const [s, t] of [[0, 0], [1, 0], [1, 1], [0, 1]] as const) {
           const [x, y, z] = add(add(chart.face.corner, chart.face.u, s), chart.face.v, t);
           position.push(x, z, -y);
+          normal.push(chart.face.normal[0], chart.face.normal[2], -chart.face.normal[1]);
           uv.push((s * length(chart.face.u)) / 3, (t * length(chart.face.v)) / 3);
           uv1.push((chart.x + s * chart.columns) / pages[page]!.width, (chart.y + t * chart.rows) / pages[page]!.height);
           chartOf.push(c);
@@ -77,8 +80,10 @@ export function makeGlb(charts: readonly Chart[], pages: readonly { width: numbe
           metallicFactor: 0,
           ...(material.texture ? { baseColorTexture: { index: material.texture === 'paving' ? 0 : 1 } } : {}),
         },
+        occlusionTexture: { index: images.length, texCoord: 1 },
         extensions: { SKYBAKE_lightmap: { page, texCoord: 1 } },
       });
+      normals.push(normal);
       primitives.push({
         attributes: {
           POSITION: addAccessor(position, 'VEC3', { min: corners.map((c) => Math.min(...c)), max: corners.map((c) => Math.max(...c)) }),
@@ -91,6 +96,10 @@ export function makeGlb(charts: readonly Chart[], pages: readonly { width: numbe
       });
     }
   }
+  // What the walkthrough does without stands last, as the writer has it; the picture is larger than what comes in one piece.
+  primitives.forEach(({ attributes }, p) => (attributes['NORMAL'] = addAccessor(normals[p]!, 'VEC3')));
+  const occlusion = { width: 512, height: 256, channels: 3, pixels: Uint8Array.from({ length: 512 * 256 * 3 }, (_, i) => Math.abs(1e7 * Math.sin(i * i))) } as const;
+  images.push({ bufferView: addView(encodePng(occlusion)), mimeType: 'image/png' });
   const json = Buffer.from(JSON.stringify({
     asset: { version: '2.0' },
     extensionsUsed: ['SKYBAKE_lightmap'],

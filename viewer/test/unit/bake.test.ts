@@ -3,6 +3,7 @@ import os from 'node:os';
 import path from 'node:path';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 import { Bake, parseManifest, parseScales } from '../../src/core/bake';
+import { bytesNeededOfGlb, closeGlb } from '../../src/core/glb';
 import type { Manifest } from '../../src/core/generated/manifest';
 import { LoadError } from '../../src/core/load_error';
 import { writeFixture } from '../support/fixture';
@@ -84,6 +85,25 @@ describe('Bake', () => {
     for (const p of manifest.pages.keys()) expect((await night.loadInstantPage(0, p, count)).sun).toBeNull();
     expect(bytes).toBe(night.bytesOfInstant(0));
     expect(bytes).toBeLessThan(bake.bytesOfInstant(0)!);
+  });
+
+  test('of the city only comes what is read', async () => {
+    const bake = await Bake.load(`${host.url}manifest.json`, () => undefined);
+    let bytes = 0;
+    const whole = await bake.fetch('city.glb', () => undefined);
+    const start = await bake.fetchStart('city.glb', (count) => (bytes += count), (soFar) => bytesNeededOfGlb(soFar, ['POSITION', '_CHART']));
+    const needed = bytesNeededOfGlb([whole], ['POSITION', '_CHART'])!;
+    expect(bytesNeededOfGlb([whole.subarray(0, 9), whole.subarray(9, 15), whole.subarray(15)], ['POSITION', '_CHART'])).toBe(needed);
+    expect(bytesNeededOfGlb([whole], ['POSITION', '_CHART', 'NORMAL'])).toBeGreaterThan(needed);
+    expect(bytesNeededOfGlb([whole.subarray(0, 1000)], [])).toBeNull(); // amid its JSON
+    expect(start.byteLength).toBe(bytes);
+    expect(start.byteLength).toBeGreaterThanOrEqual(needed);
+    expect(start.byteLength).toBeLessThan(0.9 * whole.byteLength);
+    expect(Buffer.compare(start.subarray(20), whole.subarray(20, start.byteLength))).toBe(0);
+    closeGlb(start);
+    const words = new DataView(start.buffer);
+    expect(words.getUint32(8, true)).toBe(start.byteLength);
+    expect(20 + words.getUint32(12, true) + 8 + words.getUint32(20 + words.getUint32(12, true), true)).toBe(start.byteLength);
   });
 
   test('loads the lamps, and none where there are none', async () => {
