@@ -77,12 +77,17 @@ io::PartFactors parts_of(const std::string& text, const std::vector<std::string>
 
 io::PartFactors parts_of(const ViewLink& link, const std::vector<std::string>& known) {
     io::PartFactors parts;
-    if (link.off.empty()) return parts;
+    bool is_whole = true;
     for (const std::string& name : known) {
-        const bool is_off = std::find(link.off.begin(), link.off.end(), name) != link.off.end();
-        parts.emplace_back(name, is_off ? 0.0f : 1.0f);
+        float factor = 1.0f;
+        for (const auto& [part, scale] : link.factors) {
+            if (part == name) factor = scale;
+        }
+        if (std::find(link.off.begin(), link.off.end(), name) != link.off.end()) factor = 0.0f;
+        is_whole = is_whole && factor == 1.0f;
+        parts.emplace_back(name, factor);
     }
-    return parts;
+    return is_whole ? io::PartFactors{} : parts;
 }
 
 }  // namespace skybake::cli

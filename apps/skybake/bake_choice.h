@@ -22,7 +22,7 @@ std::size_t instant_of(const io::StoredBake& bake, const std::string& at, const 
 /// --parts, as "sun,sky=0.5"; empty for all parts as they are. Throws InputError for parts that are not `known`.
 io::PartFactors parts_of(const std::string& text, const std::vector<std::string>& known);
 
-/// All parts, less those that the link switches off; empty when it switches none off.
+/// All parts as the link scales them or switches them off; empty for all parts as they are.
 io::PartFactors parts_of(const ViewLink& link, const std::vector<std::string>& known);
 
 }  // namespace skybake::cli

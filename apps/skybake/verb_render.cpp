@@ -213,6 +213,11 @@ int run_render(const RenderOptions& options, const CommonOptions& common) {
     const PictureKind kind = !options.picture.empty() ? kind_of(options.picture)
                              : link && link->kind     ? *link->kind
                                                       : PictureKind::lit;
+    if (options.picture.empty() && link && !link->layer.empty())
+        throw InputError(
+            fmt::format("--camera: the link shows the study's layer '{}', which stills do not draw. Name another "
+                        "picture with --picture.",
+                        link->layer));
     check_use(options, kind);
     const std::vector<std::string> known = io::light_parts(bake, instant);
     const io::PartFactors parts =

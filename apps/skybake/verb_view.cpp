@@ -47,6 +47,22 @@ void check_bake(const fs::path& folder) {
         throw InputError(fmt::format("{}: not the manifest of a bake. Bake the city again.", path.string()));
 }
 
+/// How the user calls a folder: the walkthrough names bakes of one title by it.
+std::string name_of(const fs::path& folder) {
+    return fs::weakly_canonical(folder).filename().string();
+}
+
+/// For an address: RFC 3986, section 2.3 names what needs no escape.
+std::string escaped(const std::string& text) {
+    std::string out;
+    for (const char c : text) {
+        const bool is_plain = (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '-' ||
+                              c == '.' || c == '_' || c == '~';
+        out += is_plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+    }
+    return out;
+}
+
 /// Asks the desktop to open the address; without a desktop nothing happens, the address is on the terminal.
 void open_browser(const std::string& url) {
     if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) return;
@@ -94,7 +110,9 @@ int run_view(const ViewOptions& options, const CommonOptions& common) {
     WebServer server(roots, mounts);
     const int port = server.bind(options.port == 0 ? std::nullopt : std::optional(options.port));
     std::string url = fmt::format("http://127.0.0.1:{}/", port);
-    if (!mounts.empty()) url += fmt::format("?compare={}/", kCompared);
+    if (!mounts.empty())
+        url += fmt::format("?compare={}/&a={}&b={}", kCompared, escaped(name_of(folder)),
+                           escaped(name_of(options.compared)));
     bool is_served = false;
     const pthread_t self = pthread_self();
     std::thread serving([&] {

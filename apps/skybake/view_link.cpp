@@ -53,6 +53,16 @@ std::optional<Vec3f> vec3_of(std::string_view text) {
     return value;
 }
 
+/// What stands between commas.
+std::vector<std::string_view> split(std::string_view text) {
+    std::vector<std::string_view> words;
+    while (!text.empty()) {
+        words.push_back(text.substr(0, text.find(',')));
+        text.remove_prefix(std::min(words.back().size() + 1, text.size()));
+    }
+    return words;
+}
+
 }  // namespace
 
 ViewLink parse_view_link(const std::string& link) {
@@ -88,8 +98,14 @@ ViewLink parse_view_link(const std::string& link) {
                                                                   {"illuminance", PictureKind::illuminance},
                                                                   {"sky-view", PictureKind::sky_view}};
         const auto kind = kKinds.find(*picture);
-        if (kind == kKinds.end()) fail(fmt::format("knows no picture '{}'", *picture));
-        view.kind = kind->second;
+        if (*picture == "layer") {
+            view.layer = field("l").value_or("");
+            if (view.layer.empty()) fail("shows a layer of a study, but does not say which (l)");
+        } else if (kind == kKinds.end()) {
+            fail(fmt::format("knows no picture '{}'", *picture));
+        } else {
+            view.kind = kind->second;
+        }
     }
     if (const auto instant = field("i")) {
         view.instant = number_of<std::size_t>(*instant);
@@ -116,10 +132,14 @@ ViewLink parse_view_link(const std::string& link) {
         view.has_air = *air == "1";
     }
     if (const auto off = field("off")) {
-        for (std::string_view left = *off; !left.empty();) {
-            const std::string_view part = left.substr(0, left.find(','));
-            view.off.emplace_back(part);
-            left.remove_prefix(std::min(part.size() + 1, left.size()));
+        for (const std::string_view part : split(*off)) view.off.emplace_back(part);
+    }
+    if (const auto factors = field("k")) {
+        for (const std::string_view entry : split(*factors)) {
+            const std::size_t colon = std::min(entry.find(':'), entry.size());
+            const auto factor = number_of<float>(entry.substr(std::min(colon + 1, entry.size())));
+            if (!factor || *factor < 0.0f) fail(fmt::format("the factor '{}' is not PART:NUMBER", entry));
+            view.factors.emplace_back(entry.substr(0, colon), *factor);
         }
     }
     return view;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/vec.h"
@@ -23,6 +24,8 @@ struct ViewLink {
     std::optional<float> ev;           // stops
     std::optional<bool> has_air;       // the air between the eye and the city is seen
     std::vector<std::string> off;      // parts of the light that are switched off
+    std::vector<std::pair<std::string, float>> factors;  // of parts that are scaled
+    std::string layer;  // id of the study's layer that is shown, where that is the picture
 };
 
 /// Reads a whole address or the part from its '#' on. Fields that it does not know are left to newer walkthroughs.

@@ -193,6 +193,26 @@ TEST_F(RenderVerb, ALinkMayAskForFalseColoursAndLieBetweenInstants) {
     EXPECT_THAT(loud.err(), HasSubstr("between two instants"));
 }
 
+TEST_F(RenderVerb, ALinkScalesPartsAndNamesLayersThatStillsDoNotDraw) {
+    const std::string view = "#v=1&p=20,20,60&t=20,21,0&s=illuminance";
+    const std::string a = folder_->str("scaled.png"), b = folder_->str("parts.png");
+    std::string err;
+    const auto both = [&](const std::string& link, const std::string& parts) {
+        ASSERT_EQ(render({"-o", a, "--size", "16x16", "--camera", view + link}, &err), 0) << err;
+        ASSERT_EQ(render({"-o", b, "--size", "16x16", "--camera", view, "--parts", parts}, &err), 0) << err;
+        EXPECT_EQ(text_of(a), text_of(b)) << link;
+    };
+    both("&k=sun:0.50", "sun=0.5,sky");
+    both("&k=sun:0.50,sky:2&off=sun", "sun=0,sky=2");
+    EXPECT_EQ(render({"-o", a, "--camera", view + "&k=sun"}, &err), 2);
+    EXPECT_THAT(err, HasSubstr("factor 'sun'"));
+    const std::string layer = "#v=1&p=20,20,60&t=20,21,0&s=layer&l=sun_hours_2026-03-21";
+    EXPECT_EQ(render({"-o", a, "--camera", layer}, &err), 2);
+    EXPECT_THAT(err, HasSubstr("'sun_hours_2026-03-21'"));
+    EXPECT_THAT(err, HasSubstr("--picture"));
+    EXPECT_EQ(render({"-o", a, "--size", "16x16", "--camera", layer, "--picture", "lit"}, &err), 0) << err;
+}
+
 TEST_F(RenderVerb, ExportPaintsTheLightOntoTheCity) {
     Running run(*folder_, {"export", folder_->str("lit"), "-o", folder_->str("unlit.glb"), "--detail", "3", "--json"});
     ASSERT_EQ(run.exit_code(), 0) << run.err();

@@ -102,7 +102,8 @@ TEST_F(ViewVerb, ASecondBakeIsServedBesideTheFirst) {
     std::ofstream(other / "manifest.json") << R"({"format": "skybake-bake", "version": 1, "title": "after"})";
     start({folder_.string(), other.string(), "--no-open", "--json"});
     const int served_port = port();
-    EXPECT_THAT(printed("stdout"), HasSubstr("/?compare=compare/"));
+    EXPECT_THAT(printed("stdout"), HasSubstr("/?compare=compare/&a="));
+    EXPECT_THAT(printed("stdout"), HasSubstr("&b=other\""));
     httplib::Client client("127.0.0.1", served_port);
     const auto manifest = client.Get("/compare/manifest.json");
     ASSERT_TRUE(manifest);

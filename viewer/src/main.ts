@@ -1,7 +1,7 @@
 import './ui/style.css';
-import { App } from './app';
+import { App } from './app/app';
 import { language } from './core/text/language';
-import { installTestHook } from './test_hook';
+import { installTestHook } from './app/test_hook';
 import { showError } from './ui/notices';
 
 // `?antialias=off` halves the work of a software rasteriser.

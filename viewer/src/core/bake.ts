@@ -3,6 +3,7 @@ import { ExrFile } from './exr';
 import { fetchBytes, fetchRange, fetchStart, type OnBytes } from './fetch';
 import type { Manifest } from './generated/manifest';
 import validateManifest from './generated/validate_manifest.js';
+import type { Layer } from './layer_colours';
 import { lightParts, type LightPart } from './light_parts';
 import { LoadError } from './load_error';
 import { CityObjects } from './objects';
@@ -131,6 +132,16 @@ export class Bake {
     return this.archive(this.instant(index).pages[page]?.exr);
   }
 
+  /** A study's layer; null when the bake has none of that name. */
+  layer(id: string | null): Layer | null {
+    return this.manifest.layers?.find((layer) => layer.id === id) ?? null;
+  }
+
+  /** The archive of a layer's exact numbers on a page. */
+  layerFile(layer: Layer, page: number): Promise<ExrFile> {
+    return this.archive(layer.pages[page]?.exr);
+  }
+
   /** The archive of what all instants share on a page. */
   baseFile(page: number): Promise<ExrFile> {
     return this.archive(this.manifest.pages[page]?.base);
@@ -179,9 +190,9 @@ export class Bake {
     return scales ? parseScales(this.url(scales.uri), await this.fetch(scales.uri, onBytes), charts) : null;
   }
 
-  /** A page of what all instants share. Throws LoadError. */
-  async loadSharedPage(page: number, kind: 'lamps' | 'svf', onBytes: OnBytes): Promise<EncodedPage> {
-    const uri = this.manifest.pages[page]?.[kind];
+  /** A page of the lamps' light. Throws LoadError. */
+  async loadLampPage(page: number, onBytes: OnBytes): Promise<EncodedPage> {
+    const uri = this.manifest.pages[page]?.lamps;
     if (uri === undefined) throw new LoadError(this.manifestUrl, text.error.noLampPage);
     return this.loadPage(uri, page, onBytes);
   }
@@ -215,7 +226,7 @@ export class Bake {
     return { sky, sun, indirect };
   }
 
-  private async loadPage(uri: string, page: number, onBytes: OnBytes, signal?: AbortSignal): Promise<EncodedPage> {
+  async loadPage(uri: string, page: number, onBytes: OnBytes, signal?: AbortSignal): Promise<EncodedPage> {
     const { width, height } = this.manifest.pages[page] ?? { width: 0, height: 0 };
     return { url: this.url(uri), bytes: await this.fetch(uri, onBytes, signal), width, height };
   }

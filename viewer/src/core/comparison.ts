@@ -22,3 +22,28 @@ export function momentOfOther(own: Manifest['instants'], other: Manifest['instan
   const nearest = twin(Math.round(moment));
   return nearest ?? Math.min(Math.round(moment), other.length - 1);
 }
+
+export interface NamedBake {
+  manifest: Pick<Manifest, 'title' | 'inputs' | 'settings'>;
+  /** Of the folder; empty when it is not known. */
+  folder: string;
+}
+
+/** The shortest names that tell two bakes apart: their titles, folders, files or settings; null when nothing does. */
+export function distinguish(a: NamedBake, b: NamedBake): { a: string; b: string } | null {
+  const settings = (own: NamedBake, other: NamedBake): string =>
+    Object.entries(own.manifest.settings).filter(([name, value]) => other.manifest.settings[name] !== value).map(([name, value]) => `${name} ${value}`).join(' ');
+  const candidates: [string, string][] = [
+    [a.manifest.title, b.manifest.title],
+    [a.folder, b.folder],
+    [a.manifest.inputs.map(({ file }) => file).join(', '), b.manifest.inputs.map(({ file }) => file).join(', ')],
+    [settings(a, b), settings(b, a)],
+  ];
+  const found = candidates.find(([first, second]) => first !== second && first !== '' && second !== '');
+  return found ? { a: found[0], b: found[1] } : null;
+}
+
+/** The last folder of an address, such as "before" of https://host/town/before/manifest.json. */
+export function folderOf(manifestUrl: string): string {
+  return decodeURIComponent(new URL(manifestUrl).pathname.split('/').at(-2) ?? '');
+}

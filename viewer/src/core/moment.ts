@@ -19,6 +19,13 @@ export function formatInstant(label: string): string {
   return new Intl.DateTimeFormat(language, { dateStyle: 'medium', timeStyle: 'short', timeZone: 'UTC' }).format(new Date(`${clock}Z`));
 }
 
+/** The date alone. */
+export function formatDay(label: string): string {
+  const clock = isoPattern.exec(label)?.[1];
+  if (!clock) return label;
+  return new Intl.DateTimeFormat(language, { dateStyle: 'medium', timeZone: 'UTC' }).format(new Date(`${clock}Z`));
+}
+
 function offsetMs(label: string): number {
   const zone = isoPattern.exec(label)?.[2] ?? 'Z';
   if (zone === 'Z') return 0;

@@ -4,17 +4,18 @@ import { exposureFactor } from '../core/exposure';
 import type { FalseColour } from '../core/false_colour';
 import type { OnBytes } from '../core/fetch';
 import { bytesNeededOfGlb, closeGlb } from '../core/glb';
-import type { LightPart } from '../core/light_parts';
+import type { LightMix } from '../core/light_parts';
 import { LoadError } from '../core/load_error';
 import type { Picture } from '../core/pictures';
 import { text } from '../core/text';
-import { makeSharedUniforms, mostPages, setFalseColour, setNumbersPicture, setPartsOff, setPicture, type SharedUniforms } from './city_material';
+import { makeSharedUniforms, mostPages, setFalseColour, setNumbersPicture, setParts, setPicture, type SharedUniforms } from './city_material';
 import { cityAttributes, loadCity, type City } from './city';
 import { CityRays } from './city_rays';
 import { Ground } from './ground';
 import { Instants } from './instants';
 import { PageLayers, type LayerPainter } from './layers';
 import { applyLight, decodePage, type InstantTextures } from './light';
+import { MeasurePages } from './measure_pages';
 import { pagesByNearness } from './page_order';
 import { SkyDome } from './sky';
 
@@ -26,14 +27,27 @@ function instantsOf(moment: number): number[] {
   return moment > first ? [first, first + 1] : [first];
 }
 
+/** How the light is shown. */
+export interface Display {
+  picture: Picture;
+  ev: number;
+  /** The air between the eye and the city is drawn. */
+  isAirSeen: boolean;
+  mix: LightMix;
+  /** Range of the false colours. */
+  scale: FalseColour;
+  /** Id of the study's layer, where that is the picture. */
+  layer: string | null;
+}
+
 /** One bake as a scene: its city, and the light of the moment on show. */
 export class BakedScene {
   readonly scene = new THREE.Scene();
   private readonly sky: SkyDome;
   private readonly instants: Instants;
   private lamps: Promise<void> | null = null;
-  private skyView: Promise<void> | null = null;
-  private readonly sharedLayers: PageLayers[] = [];
+  private readonly measures: MeasurePages;
+  private lampLayers: PageLayers | null = null;
   private raysBuilt: CityRays | null = null;
   private groundBuilt: Ground | null = null;
   private wantedMoment = -1;
@@ -54,6 +68,7 @@ export class BakedScene {
   ) {
     const { pages } = bake.manifest;
     this.sky = new SkyDome(shared);
+    this.measures = new MeasurePages(bake, painter, shared);
     this.instants = new Instants(bake, lampScales, painter, onChange);
     shared.uPageSize.value.set(Math.max(...pages.map(({ width }) => width)), Math.max(...pages.map(({ height }) => height)));
     this.scene.add(this.sky.mesh, city.group);
@@ -81,7 +96,7 @@ export class BakedScene {
 
   /** Bytes of light on the graphics card. */
   get lightBytes(): number {
-    return this.sharedLayers.reduce((sum, { bytes }) => sum + bytes, this.instants.bytes);
+    return this.instants.bytes + (this.lampLayers?.bytes ?? 0) + this.measures.bytes;
   }
 
   /**
@@ -134,13 +149,14 @@ export class BakedScene {
   }
 
   /** How the light is shown. Throws LoadError when the picture needs a file that cannot be read. */
-  async show(picture: Picture, ev: number, isAirSeen: boolean, off: readonly LightPart[], scale: FalseColour): Promise<void> {
-    if (picture === 'sky-view') await this.loadSkyView();
+  async show({ picture, ev, isAirSeen, mix, scale, layer }: Display): Promise<void> {
+    if (picture === 'sky-view') await this.measures.showSkyView();
+    if (picture === 'layer') await this.measures.showLayer(layer, scale);
     this.picture = picture;
     this.ev = ev;
     this.isAirSeen = isAirSeen;
     setPicture(this.shared, picture);
-    setPartsOff(this.shared, off);
+    setParts(this.shared, mix);
     setFalseColour(this.shared, scale);
     this.applyDisplay();
   }
@@ -169,7 +185,8 @@ export class BakedScene {
   dispose(): void {
     this.city.dispose();
     this.instants.dispose();
-    for (const layers of this.sharedLayers) layers.dispose();
+    this.lampLayers?.dispose();
+    this.measures.dispose();
     this.sky.dispose();
   }
 
@@ -199,28 +216,19 @@ export class BakedScene {
 
   private async loadLamps(onBytes: OnBytes): Promise<void> {
     if (!this.lampScales) return;
-    this.lamps ??= this.loadShared('lamps', onBytes).catch((error: unknown) => {
+    this.lamps ??= this.loadLampPages(onBytes).catch((error: unknown) => {
       this.lamps = null; // the next question asks again
       throw error;
     });
     await this.lamps;
   }
 
-  private async loadSkyView(): Promise<void> {
-    this.skyView ??= this.loadShared('svf', () => {}).catch((error: unknown) => {
-      this.skyView = null;
-      throw error;
-    });
-    await this.skyView;
-  }
-
-  /** Pages that all instants share, on show as they come. Throws LoadError. */
-  private async loadShared(kind: 'lamps' | 'svf', onBytes: OnBytes): Promise<void> {
-    const layers = new PageLayers(this.painter, this.bake.manifest.pages, kind === 'lamps' ? 'light' : 'share');
-    this.sharedLayers.push(layers);
-    (kind === 'lamps' ? this.shared.uLamps : this.shared.uSkyView).value = layers.texture;
+  /** The lamps' pages, on show as they come. Throws LoadError. */
+  private async loadLampPages(onBytes: OnBytes): Promise<void> {
+    const layers = (this.lampLayers ??= new PageLayers(this.painter, this.bake.manifest.pages, 'light'));
+    this.shared.uLamps.value = layers.texture;
     await Promise.all(this.bake.manifest.pages.map(async (_, page) => {
-      layers.put(page, await decodePage(await this.bake.loadSharedPage(page, kind, onBytes)), null);
+      layers.put(page, await decodePage(await this.bake.loadLampPage(page, onBytes)), null);
       this.onChange();
     }));
   }

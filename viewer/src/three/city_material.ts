@@ -1,12 +1,12 @@
 import * as THREE from 'three';
 import { viridis, type FalseColour } from '../core/false_colour';
-import { lightParts, type LightPart } from '../core/light_parts';
+import { factorOf, lightParts, type LightMix } from '../core/light_parts';
 import type { Picture } from '../core/pictures';
 import { airShader, makeAirUniforms, type AirUniforms } from './air';
 
-const pictureNumber: Record<Picture, number> = { lit: 0, textures: 1, light: 2, illuminance: 3, 'sky-view': 4 };
+const pictureNumber: Record<Picture, number> = { lit: 0, textures: 1, light: 2, illuminance: 3, 'sky-view': 4, layer: 5 };
 /** Not for eyes: lux and distance, as differences need them. */
-const numbersPicture = 5;
+export const numbersPicture = 6;
 /** From this number on a picture shows a measure in false colours. */
 export const firstMeasure = pictureNumber.illuminance;
 
@@ -28,7 +28,7 @@ export interface SharedUniforms extends AirUniforms {
   uIndirect: THREE.IUniform<THREE.Texture | null>;
   uIndirectB: THREE.IUniform<THREE.Texture | null>;
   uLamps: THREE.IUniform<THREE.Texture | null>;
-  uSkyView: THREE.IUniform<THREE.Texture | null>;
+  uMeasure: THREE.IUniform<THREE.Texture | null>;
   /** A bit a page of the instant on show that is here. */
   uPagesHere: THREE.IUniform<Int32Array>;
   /** Texels of a layer. */
@@ -40,6 +40,8 @@ export interface SharedUniforms extends AirUniforms {
   uScale: THREE.IUniform<THREE.Vector3>;
   /** Factors for the light of sun, sky, reflections and lamps. */
   uParts: THREE.IUniform<THREE.Vector4>;
+  /** Colours of a study's layer, by its grey level. */
+  uRamp: THREE.IUniform<THREE.Texture | null>;
 }
 
 export function makeSharedUniforms(): SharedUniforms {
@@ -51,7 +53,7 @@ export function makeSharedUniforms(): SharedUniforms {
     uIndirect: { value: null },
     uIndirectB: { value: null },
     uLamps: { value: null },
-    uSkyView: { value: null },
+    uMeasure: { value: null },
     uPagesHere: { value: new Int32Array(mostPages / 32) },
     uPageSize: { value: new THREE.Vector2(1, 1) },
     uSunKlx: { value: [new THREE.Vector3(), new THREE.Vector3()] },
@@ -60,6 +62,7 @@ export function makeSharedUniforms(): SharedUniforms {
     uPicture: { value: 0 },
     ...makeAirUniforms(),
     uParts: { value: new THREE.Vector4(1, 1, 1, 1) },
+    uRamp: { value: null },
   };
 }
 
@@ -75,8 +78,8 @@ export function setFalseColour(uniforms: SharedUniforms, { low, high, isLogarith
   uniforms.uScale.value.set(low, high, isLogarithmic ? 1 : 0);
 }
 
-export function setPartsOff(uniforms: SharedUniforms, off: readonly LightPart[]): void {
-  uniforms.uParts.value.fromArray(lightParts.map((part) => (off.includes(part) ? 0 : 1)));
+export function setParts(uniforms: SharedUniforms, mix: LightMix): void {
+  uniforms.uParts.value.fromArray(lightParts.map((part) => factorOf(mix, part)));
 }
 
 /**
@@ -159,7 +162,8 @@ uniform sampler2DArray uLight;
 uniform sampler2DArray uLightB;
 uniform sampler2DArray uIndirect;
 uniform sampler2DArray uIndirectB;
-uniform sampler2DArray uSkyView;
+uniform sampler2DArray uMeasure;
+uniform sampler2D uRamp;
 uniform sampler2DArray uLamps;
 uniform vec4 uParts;
 uniform vec2 uPageSize;
@@ -237,7 +241,12 @@ void main() {
   level = clamp(0.5 * log2(max(max(dot(dx, dx), dot(dy, dy)), 1e-8)), 0.0, 1.0);
   placeCubic();
   if (uPicture == ${pictureNumber['sky-view']}) {
-    outColor = falseColour(pageAt(uSkyView).r);
+    outColor = falseColour(pageAt(uMeasure).r);
+    return;
+  }
+  if (uPicture == ${pictureNumber.layer}) {
+    int last = textureSize(uRamp, 0).x - 1;
+    outColor = texelFetch(uRamp, ivec2(int(clamp(pageAt(uMeasure).r, 0.0, 1.0) * float(last) + 0.5), 0), 0);
     return;
   }
   vec3 illuminance = vIsHere == 1 ? lightOf(uLight, uIndirect, vScale, uSunKlx[0])

@@ -1,9 +1,19 @@
 import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 
+const flightSeconds = 1.4;
+
+/** From one view to another: both ends of the gaze move, slowly at first and at last. */
+interface Flight {
+  from: { position: THREE.Vector3; target: THREE.Vector3 };
+  to: { position: THREE.Vector3; target: THREE.Vector3 };
+  share: number;
+}
+
 /** Flying about a point. Keeps the near plane in step with the distance, so that depth stays exact from a roof tile to the whole city. */
 export class OrbitMode {
   private readonly controls: OrbitControls;
+  private flight: Flight | null = null;
 
   constructor(
     private readonly camera: THREE.PerspectiveCamera,
@@ -22,10 +32,12 @@ export class OrbitMode {
     this.controls.keyPanSpeed = 20;
     this.controls.listenToKeyEvents(canvas);
     this.controls.addEventListener('change', onChange);
+    this.controls.addEventListener('start', () => (this.flight = null)); // the user's hand goes first
     this.controls.enabled = false;
   }
 
   set enabled(enabled: boolean) {
+    this.flight = null;
     this.controls.enabled = enabled;
   }
 
@@ -33,7 +45,18 @@ export class OrbitMode {
     return this.controls.target.clone();
   }
 
+  /** On the way to a view; at once for who wants no motion. */
+  fly(position: THREE.Vector3, target: THREE.Vector3): void {
+    if (matchMedia('(prefers-reduced-motion: reduce)').matches) return this.look(position, target);
+    this.flight = { from: { position: this.camera.position.clone(), target: this.target }, to: { position, target }, share: 0 };
+  }
+
   look(position: THREE.Vector3, target: THREE.Vector3): void {
+    this.flight = null;
+    this.jump(position, target);
+  }
+
+  private jump(position: THREE.Vector3, target: THREE.Vector3): void {
     this.camera.position.copy(position);
     this.controls.target.copy(target);
     // Damping would carry an old swing on into the new view.
@@ -47,9 +70,19 @@ export class OrbitMode {
   /** One step of the damped motion; true while it still moves. */
   update(seconds: number): boolean {
     if (!this.controls.enabled) return false;
+    if (this.flight) return this.flyOn(this.flight, seconds);
     const isMoving = this.controls.update(seconds);
     this.fitDepth();
     return isMoving;
+  }
+
+  private flyOn(flight: Flight, seconds: number): boolean {
+    flight.share = Math.min(1, flight.share + Math.min(seconds, 0.1) / flightSeconds);
+    const share = THREE.MathUtils.smootherstep(flight.share, 0, 1);
+    const { from, to } = flight;
+    this.jump(from.position.clone().lerp(to.position, share), from.target.clone().lerp(to.target, share));
+    if (flight.share === 1) this.flight = null;
+    return true;
   }
 
   private fitDepth(): void {

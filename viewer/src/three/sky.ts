@@ -1,7 +1,7 @@
 import * as THREE from 'three';
 import type { BakedInstant } from '../core/bake';
 import { airShader } from './air';
-import { displayShader, firstMeasure, type SharedUniforms } from './city_material';
+import { displayShader, firstMeasure, numbersPicture, type SharedUniforms } from './city_material';
 
 const vertexShader = /* glsl */ `
 uniform mat4 uClipToWorld;
@@ -35,7 +35,7 @@ const float kPi = 3.141592653589793;
 
 void main() {
   vec3 direction = normalize(vRay);
-  if (uPicture > ${firstMeasure} + 1) { // numbers: no surface
+  if (uPicture == ${numbersPicture}) { // numbers: no surface
     outColor = vec4(0.0);
     return;
   }

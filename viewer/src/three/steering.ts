@@ -3,7 +3,7 @@ import type { Mode } from '../core/pictures';
 import { sceneToWorld, worldToScene, type Vec3 } from '../core/units';
 import type { BakedScene } from './baked_scene';
 import { OrbitMode } from './orbit';
-import { WalkMode, type WalkKey } from './walk';
+import { WalkMode } from './walk';
 
 /** Where the visitor is in a bake: flying about a point, or on foot. Positions at its surface are world metres (z up). */
 export class Steering {
@@ -34,7 +34,14 @@ export class Steering {
     return { position: sceneToWorld(this.camera.position.toArray()), target: sceneToWorld(target.toArray()) };
   }
 
-  /** Flies to a view. In walk mode the mode becomes orbit. */
+  /** On the way to a view through the air. From walk mode it is there at once, in orbit. */
+  flyTo(position: Vec3, target: Vec3): void {
+    if (this.currentMode === 'walk') return this.lookAt(position, target);
+    this.orbit.fly(new THREE.Vector3(...worldToScene(position)), new THREE.Vector3(...worldToScene(target)));
+    this.onChange();
+  }
+
+  /** Looks from a place at once. In walk mode the mode becomes orbit. */
   lookAt(position: Vec3, target: Vec3): void {
     this.leaveWalk();
     this.orbit.look(new THREE.Vector3(...worldToScene(position)), new THREE.Vector3(...worldToScene(target)));
@@ -88,8 +95,24 @@ export class Steering {
     if (this.currentMode === 'walk') this.walk?.walk(along, aside, metres);
   }
 
-  pressWalkKey(key: WalkKey, isDown: boolean): void {
-    if (this.currentMode === 'walk') this.walk?.press(key, isDown);
+  /** How far a touch stick is pushed, forward and to the right, each −1…1. */
+  steer(along: number, aside: number): void {
+    if (this.currentMode === 'walk') this.walk?.steer(along, aside);
+  }
+
+  /** On foot: to the open place nearest to a world position, looking on in the same direction. In the air: on the way to above it. False when it cannot be reached. */
+  goTo([x, y]: readonly [number, number]): boolean {
+    const { orbit, walk, baked: { city, ground } } = this;
+    const [sceneX, , sceneZ] = worldToScene([x, y, 0]);
+    if (this.currentMode === 'walk' && walk) {
+      const place = ground.openPlaceNear(sceneX, sceneZ);
+      return place !== null && walk.stand(place.feet.setY(place.feet.y + 1), walk.yaw, walk.pitch);
+    }
+    const below = ground.below(new THREE.Vector3(sceneX, city.bounds.max.y + 1, sceneZ));
+    const target = new THREE.Vector3(sceneX, below?.y ?? orbit.target.y, sceneZ);
+    orbit.fly(target.clone().add(this.camera.position).sub(orbit.target), target);
+    this.onChange();
+    return true;
   }
 
   /** A view of the whole city from the side that the first instant's sun lights. */

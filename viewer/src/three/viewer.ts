@@ -3,7 +3,7 @@ import type { Bake } from '../core/bake';
 import type { Comparison } from '../core/comparison';
 import type { FalseColour } from '../core/false_colour';
 import type { OnBytes } from '../core/fetch';
-import type { LightPart } from '../core/light_parts';
+import { wholeLight, type LightMix } from '../core/light_parts';
 import type { Mode, Picture } from '../core/pictures';
 import { worldToScene, type Vec3 } from '../core/units';
 import { BakedScene } from './baked_scene';
@@ -12,7 +12,6 @@ import { LayerPainter } from './layers';
 import { finishDrawing, pngOf, readBlock } from './read_back';
 import { statsOf, type ViewerStats } from './stats';
 import { Steering } from './steering';
-import type { WalkKey } from './walk';
 
 export interface ViewerOptions {
   antialias: boolean;
@@ -33,7 +32,8 @@ export class Viewer {
   private readonly painter: LayerPainter;
   private steering: Steering | null = null;
   private pair: BakePair | null = null;
-  private partsOff: readonly LightPart[] = [];
+  private currentMix = wholeLight;
+  private currentLayer: string | null = null;
   private currentPicture: Picture = 'lit';
   private currentEv = 0;
   private currentScale: FalseColour = { low: 100, high: 100_000, isLogarithmic: true };
@@ -143,13 +143,23 @@ export class Viewer {
     this.applyDisplay();
   }
 
-  /** Parts of the light that the city is shown without. */
-  get off(): readonly LightPart[] {
-    return this.partsOff;
+  /** How much of each part of the light is shown. */
+  get mix(): LightMix {
+    return this.currentMix;
   }
 
-  set off(parts: readonly LightPart[]) {
-    this.partsOff = parts;
+  set mix(mix: LightMix) {
+    this.currentMix = mix;
+    this.applyDisplay();
+  }
+
+  /** Id of the study's layer that the picture of that name shows. */
+  get layer(): string | null {
+    return this.currentLayer;
+  }
+
+  set layer(id: string | null) {
+    this.currentLayer = id;
     this.applyDisplay();
   }
 
@@ -206,7 +216,12 @@ export class Viewer {
     return this.steered().view;
   }
 
-  /** Flies to a view. In walk mode the mode becomes orbit. */
+  /** As Steering.flyTo(). */
+  flyTo(position: Vec3, target: Vec3): void {
+    this.steering?.flyTo(position, target);
+  }
+
+  /** Looks from a place at once. In walk mode the mode becomes orbit. */
   lookAt(position: Vec3, target: Vec3): void {
     this.steering?.lookAt(position, target);
   }
@@ -224,8 +239,19 @@ export class Viewer {
     this.steering?.walkBy(along, aside, metres);
   }
 
-  pressWalkKey(key: WalkKey, isDown: boolean): void {
-    this.steering?.pressWalkKey(key, isDown);
+  /** How far a touch stick is pushed, forward and to the right, each −1…1. */
+  steer(along: number, aside: number): void {
+    this.steering?.steer(along, aside);
+  }
+
+  /** As Steering.goTo(). */
+  goTo(place: readonly [number, number]): boolean {
+    return this.steering?.goTo(place) ?? false;
+  }
+
+  /** The bake that was opened first. */
+  get scene(): BakedScene | null {
+    return this.pair?.first ?? null;
   }
 
   birdsEye(): { position: Vec3; target: Vec3 } {
@@ -263,7 +289,8 @@ export class Viewer {
   private applyDisplay(): void {
     this.changed();
     const show = async (): Promise<void> => {
-      for (const baked of this.pair?.all ?? []) await baked.show(this.currentPicture, this.currentEv, this.isAirSeen, this.partsOff, this.currentScale);
+      const display = { picture: this.currentPicture, ev: this.currentEv, isAirSeen: this.isAirSeen, mix: this.currentMix, scale: this.currentScale, layer: this.currentLayer };
+      for (const baked of this.pair?.all ?? []) await baked.show(display);
     };
     show().then(() => this.changed(), this.options.onError);
   }

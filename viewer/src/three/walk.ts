@@ -7,6 +7,7 @@ const stepUp = 0.6; // kerbs and stairs, not sills
 const shoulder = 0.4; // metres kept from walls
 const turnPerPixel = 0.003;
 const maxPitch = THREE.MathUtils.degToRad(85);
+const stickRuns = 0.97; // pushed to its edge
 const longestFrame = 0.1; // a stalled tab must not jump through a wall
 
 export type WalkKey = 'forward' | 'back' | 'left' | 'right' | 'run';
@@ -25,6 +26,8 @@ export class WalkMode {
   pitch = 0;
   private isEnabled = false;
   private readonly pressed = new Set<WalkKey>();
+  /** Of the touch stick, each −1…1. */
+  private readonly stick = { along: 0, aside: 0 };
   private readonly feet = new THREE.Vector3();
   private dragPointer: number | null = null;
   private lastX = 0;
@@ -54,6 +57,7 @@ export class WalkMode {
   set enabled(enabled: boolean) {
     this.isEnabled = enabled;
     this.pressed.clear();
+    this.steer(0, 0);
     this.dragPointer = null;
     if (!enabled) return;
     this.camera.near = 0.1;
@@ -72,21 +76,21 @@ export class WalkMode {
     return true;
   }
 
-  press(key: WalkKey, isDown: boolean): void {
-    if (isDown) this.pressed.add(key);
-    else this.pressed.delete(key);
+  /** How far a touch stick is pushed, forward and to the right, each −1…1; all the way runs. */
+  steer(along: number, aside: number): void {
+    Object.assign(this.stick, { along, aside });
     this.onChange();
   }
 
   /** Walks for the time given; true while a key asks for more. */
   update(seconds: number): boolean {
     if (!this.isEnabled) return false;
-    const along = Number(this.pressed.has('forward')) - Number(this.pressed.has('back'));
-    const aside = Number(this.pressed.has('right')) - Number(this.pressed.has('left'));
-    if (along === 0 && aside === 0) return false;
-    const time = Math.min(seconds, longestFrame);
-    const length = time * walkingSpeed * (this.pressed.has('run') ? runningFactor : 1);
-    this.walk(along, aside, length);
+    const along = Number(this.pressed.has('forward')) - Number(this.pressed.has('back')) + this.stick.along;
+    const aside = Number(this.pressed.has('right')) - Number(this.pressed.has('left')) + this.stick.aside;
+    const push = Math.min(1, Math.hypot(along, aside));
+    if (push === 0) return false;
+    const isRunning = this.pressed.has('run') || Math.hypot(this.stick.along, this.stick.aside) > stickRuns;
+    this.walk(along, aside, Math.min(seconds, longestFrame) * walkingSpeed * (isRunning ? runningFactor : 1) * push);
     return true;
   }
 
@@ -162,20 +166,26 @@ export class WalkMode {
     }
     if (!this.isEnabled || event.ctrlKey || event.metaKey || event.altKey) return;
     // Arrow keys keep their meaning in sliders and lists.
-    if (event.target instanceof Element && event.target.matches('input, select, textarea')) return;
+    if (event.target instanceof Element && event.target.closest('input, select, textarea, dialog')) return;
     if (event.code.startsWith('Arrow')) event.preventDefault();
-    this.press(key, true);
+    this.pressed.add(key);
+    this.onChange();
   }
 
   private beginDrag(event: PointerEvent): void {
-    if (!this.isEnabled || this.dragPointer !== null) return;
+    if (!this.isEnabled || this.dragPointer !== null || this.isMouseCaptured) return;
     this.dragPointer = event.pointerId;
     this.lastX = event.clientX;
     this.lastY = event.clientY;
     this.canvas.setPointerCapture(event.pointerId);
   }
 
+  private get isMouseCaptured(): boolean {
+    return document.pointerLockElement === this.canvas;
+  }
+
   private drag(event: PointerEvent): void {
+    if (this.isEnabled && this.isMouseCaptured) return this.turn(event.movementX * turnPerPixel, -event.movementY * turnPerPixel);
     if (event.pointerId !== this.dragPointer) return;
     this.turn(-(event.clientX - this.lastX) * turnPerPixel, (event.clientY - this.lastY) * turnPerPixel);
     this.lastX = event.clientX;

@@ -21,12 +21,17 @@ export class CompareBar {
       this.buttons.set(comparison, button);
       return button;
     }));
-    this.nameA = element('span', { class: 'side a' }, [`A: ${names.a}`]);
-    this.nameB = element('span', { class: 'side b' }, [`B: ${names.b}`]);
+    const [labelA, labelB] = [`A: ${names.a}`, `B: ${names.b}`];
+    this.nameA = element('span', { class: 'side a', title: labelA }, [labelA]);
+    this.nameB = element('span', { class: 'side b', title: labelB }, [labelB]);
     this.root = element('section', { class: 'compare', 'aria-label': text.compare.label }, [this.nameA, group, this.nameB]);
     this.divider = element('div', {
       class: 'divider', role: 'slider', tabindex: '0', 'aria-label': text.compare.divider, 'aria-orientation': 'horizontal', 'aria-valuemin': '0', 'aria-valuemax': '100', title: text.compare.divider,
-    }, [element('span', { class: 'grip', 'aria-hidden': 'true' }, ['◂▸'])]);
+    }, [
+      element('span', { class: 'flag a', 'aria-hidden': 'true' }, [labelA]),
+      element('span', { class: 'flag b', 'aria-hidden': 'true' }, [labelB]),
+      element('span', { class: 'grip', 'aria-hidden': 'true' }, ['◂▸']),
+    ]);
     this.divider.addEventListener('keydown', (event) => this.key(event));
     this.divider.addEventListener('pointerdown', (event) => {
       this.divider.setPointerCapture(event.pointerId);

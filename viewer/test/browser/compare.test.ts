@@ -1,47 +1,21 @@
 // Two bakes beside each other: the square before and after its third house was built.
-import fs from 'node:fs';
-import os from 'node:os';
-import path from 'node:path';
-import type { Browser, Page } from 'playwright-core';
-import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+import { describe, expect, test } from 'vitest';
 import { momentOfOther } from '../../src/core/comparison';
 import { differenceColours } from '../../src/core/false_colour';
 import type { Manifest } from '../../src/core/generated/manifest';
-import { findChromium, launch, openPage } from '../support/chromium';
-import { writeFixture } from '../support/fixture';
-import { serve, type Host } from '../support/static_host';
-import { canvas, dist, whenReady } from '../support/walkthrough_page';
+import { serve } from '../support/static_host';
+import { chromium, testConsole, useWalkthrough } from '../support/walkthrough';
+import { canvas, dist } from '../support/walkthrough_page';
 
-const chromium = findChromium();
 const size = { width: 800, height: 480 };
 
 describe.skipIf(!chromium)('two bakes', () => {
-  let browser: Browser;
-  let root: string;
-  let host: Host;
-  let page: Page;
-  let problems: string[];
+  const at = useWalkthrough({ size, isCompared: true });
   let before: Uint8Array;
   let after: Uint8Array;
 
-  beforeAll(async () => {
-    root = fs.mkdtempSync(path.join(os.tmpdir(), 'skybake-compare-'));
-    writeFixture(path.join(root, 'a'), 'before');
-    writeFixture(path.join(root, 'a', 'compare'), 'after');
-    host = await serve([dist, path.join(root, 'a')]);
-    browser = await launch(chromium!);
-    ({ page, problems } = await openPage(browser, size));
-    await whenReady(page, `${host.url}?antialias=off&lang=en&compare=compare/`);
-    await page.evaluate(() => window.skybake!.setCamera([70, -85, 55], [0, 0, 4]));
-  });
-  afterAll(async () => {
-    await browser?.close();
-    await host?.close();
-    fs.rmSync(root, { recursive: true, force: true });
-  });
-
-  const shown = (): Promise<Uint8Array> => canvas(page, size.width, size.height);
-  const button = (name: string): Promise<void> => page.getByRole('region', { name: 'Comparison of two bakes' }).getByRole('button', { name, exact: true }).click();
+  const shown = (): Promise<Uint8Array> => canvas(at.page, size.width, size.height);
+  const button = (name: string): Promise<void> => at.page.getByRole('region', { name: 'Comparison of two bakes' }).getByRole('button', { name, exact: true }).click();
   /** Pixels of columns [from, to) that differ. */
   const differing = (a: Uint8Array, b: Uint8Array, from = 0, to = size.width): number => {
     let count = 0;
@@ -62,46 +36,44 @@ describe.skipIf(!chromium)('two bakes', () => {
 
   test('the divider shows A on its left and B on its right, by keyboard and by pointer', async () => {
     await button('Swipe');
-    const divider = page.getByRole('slider', { name: 'Divider between A and B' });
+    const divider = at.page.getByRole('slider', { name: 'Divider between A and B' });
     await divider.focus();
-    await page.keyboard.press('Home');
+    await at.page.keyboard.press('Home');
     expect(differing(await shown(), after)).toBe(0);
-    await page.keyboard.press('End');
+    await at.page.keyboard.press('End');
     expect(differing(await shown(), before)).toBe(0);
-    for (let i = 0; i < 5; ++i) await page.keyboard.press('PageDown');
+    for (let i = 0; i < 5; ++i) await at.page.keyboard.press('PageDown');
     expect(await divider.getAttribute('aria-valuenow')).toBe('50');
     expect(await divider.getAttribute('aria-valuetext')).toBe('A to 50 % of the width');
     const half = await shown();
     expect(differing(half, before, 0, 400)).toBe(0);
     expect(differing(half, after, 400)).toBe(0);
     const box = (await divider.boundingBox())!;
-    await page.mouse.move(box.x + box.width / 2, 100);
-    await page.mouse.down();
-    await page.mouse.move(600, 100, { steps: 4 });
-    await page.mouse.up();
+    await at.page.mouse.move(box.x + box.width / 2, 100);
+    await at.page.mouse.down();
+    await at.page.mouse.move(600, 100, { steps: 4 });
+    await at.page.mouse.up();
     expect(await divider.getAttribute('aria-valuenow')).toBe('75');
     expect(differing(await shown(), before, 0, 600)).toBe(0);
     expect(differing(await shown(), after, 600)).toBe(0);
   });
 
   test('the link restores the comparison', async () => {
-    await page.waitForTimeout(500);
-    expect(page.url()).toContain('&c=swipe,0.750');
-    const opened = await openPage(browser, size);
-    await whenReady(opened.page, page.url());
+    await at.linkHas('&c=swipe,0.750');
+    const opened = await at.another(at.page.url());
     expect(await opened.page.getByRole('slider', { name: 'Divider between A and B' }).getAttribute('aria-valuenow')).toBe('75');
     expect(differing(await canvas(opened.page, size.width, size.height), await shown())).toBe(0);
     await opened.page.close();
   });
 
   test('keys: B changes sides, C shows the difference: white where nothing changed, blue in the new shadow, stripes at the new house', async () => {
-    await page.locator('canvas').focus();
-    await page.keyboard.press('b');
+    await at.page.locator('body > canvas').focus();
+    await at.page.keyboard.press('b');
     expect(differing(await shown(), after)).toBe(0);
-    await page.keyboard.press('b');
+    await at.page.keyboard.press('b');
     expect(differing(await shown(), before)).toBe(0);
-    await page.keyboard.press('c');
-    await page.keyboard.press('c');
+    await at.page.keyboard.press('c');
+    await at.page.keyboard.press('c');
     const pixels = await shown();
     const count = (isIt: (r: number, g: number, b: number) => boolean): number => {
       let n = 0;
@@ -112,27 +84,36 @@ describe.skipIf(!chromium)('two bakes', () => {
     expect(count((...rgb) => rgb.every((code, c) => Math.abs(code - equal![c]!) < 25))).toBeGreaterThan(20_000); // the new house takes a little sky from all about it
     expect(count((r, g, b) => Math.abs(r - darker![0]) < 3 && Math.abs(g - darker![1]) < 3 && Math.abs(b - darker![2]) < 3)).toBeGreaterThan(300);
     expect(count((r, g, b) => Math.abs(r - 92) < 3 && Math.abs(g - 92) < 3 && Math.abs(b - 97) < 3)).toBeGreaterThan(500);
-    expect(await page.getByRole('region', { name: 'Illuminance, B less A, lx' }).textContent()).toContain('Grey stripes');
+    expect(await at.page.getByRole('region', { name: 'Illuminance, B less A, lx' }).textContent()).toContain('Grey stripes');
   });
 
   test('a place is measured in both', async () => {
     await button('A');
-    await page.evaluate(() => window.skybake!.setCamera([5, -10, 30], [5, -10.1, 0])); // straight down, west of the third house, whose morning shadow falls there
-    const measured = (await page.evaluate(() => window.skybake!.measureAt(400, 240)))!;
+    await at.page.evaluate(() => window.skybake!.setCamera([5, -10, 30], [5, -10.1, 0])); // straight down, west of the third house, whose morning shadow falls there
+    const measured = (await at.page.evaluate(() => window.skybake!.measureAt(400, 240)))!;
     expect(measured.parts['sun']).toBeGreaterThan(0);
-    const words = (await page.getByRole('region', { name: 'Measured here' }).textContent())!;
+    const words = (await at.page.getByRole('region', { name: 'Measured here' }).textContent())!;
     expect(words).toContain('B less A');
     expect(words).toMatch(/−[\d,.]+ lx/);
   });
 
   test('a bake on another host is refused, and said', async () => {
-    const opened = await openPage(browser, size);
-    await opened.page.goto(`${host.url}?lang=en&compare=http://127.0.0.1:9/b/`);
+    const opened = await at.another(`${at.host.url}?lang=en&compare=http://127.0.0.1:9/b/`, false);
     await opened.page.getByRole('alert').filter({ hasText: 'same host' }).waitFor();
     await opened.page.close();
   });
 
-  test('the console stayed clean', () => expect(problems).toEqual([]));
+  test('bakes of one title are named by their folders, at the divider and in the bar', async () => {
+    const host = await serve([dist, at.folder], (name, bytes) => (bytes && name.endsWith('manifest.json') ? Buffer.from(bytes.toString().replace(/"title": "T.*? houses"/, '"title": "Square"')) : bytes));
+    const opened = await at.another(`${host.url}?antialias=off&lang=en&compare=compare/&a=before&b=after%20planning`);
+    expect(await opened.page.getByRole('heading', { level: 1 }).textContent()).toBe('Square');
+    expect(await opened.page.locator('.compare .side').allTextContents()).toEqual(['A: before', 'B: after planning']);
+    expect(await opened.page.locator('.divider .flag').allTextContents()).toEqual(['A: before', 'B: after planning']);
+    await opened.page.close();
+    await host.close();
+  });
+
+  testConsole(at);
 });
 
 test('moments belong together by their labels', () => {

@@ -3,43 +3,24 @@ import { execFileSync } from 'node:child_process';
 import fs from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
-import type { Browser, Page } from 'playwright-core';
-import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+import { describe, expect, test } from 'vitest';
 import { colourOf } from '../../src/core/false_colour';
 import type { Manifest } from '../../src/core/generated/manifest';
 import { luminance } from '../../src/core/units';
-import type { Measured } from '../../src/measuring';
-import { findChromium, launch, openPage } from '../support/chromium';
-import { fixtureBeam, whiteCard, writeFixture } from '../support/fixture';
-import { serve, type Host } from '../support/static_host';
+import type { Measured } from '../../src/app/reading';
+import { launch, openPage } from '../support/chromium';
+import { fixtureBeam, whiteCard } from '../support/fixture';
+import { serve } from '../support/static_host';
 import { dist, whenReady } from '../support/walkthrough_page';
+import { chromium, testConsole, useWalkthrough } from '../support/walkthrough';
 
-const chromium = findChromium();
 const size = { width: 640, height: 480 };
 
 describe.skipIf(!chromium)('measuring in the synthetic bake', () => {
-  let browser: Browser;
-  let folder: string;
-  let host: Host;
-  let page: Page;
-  let problems: string[];
-
-  beforeAll(async () => {
-    folder = fs.mkdtempSync(path.join(os.tmpdir(), 'skybake-measure-'));
-    writeFixture(folder);
-    host = await serve([dist, folder]);
-    browser = await launch(chromium!);
-    ({ page, problems } = await openPage(browser, size));
-    await whenReady(page, `${host.url}?antialias=off&lang=en`);
-  });
-  afterAll(async () => {
-    await browser?.close();
-    await host?.close();
-    fs.rmSync(folder, { recursive: true, force: true });
-  });
+  const at = useWalkthrough({ size });
 
   const lookAtCard = (distance = 3): Promise<void> =>
-    page.evaluate(([x, y, z, d]) => window.skybake!.setCamera([x!, y! - d!, z!], [x!, y!, z!]), [...whiteCard.center, distance]);
+    at.page.evaluate(([x, y, z, d]) => window.skybake!.setCamera([x!, y! - d!, z!], [x!, y!, z!]), [...whiteCard.center, distance]);
   const cardLx = {
     sun: 1000 * whiteCard.sunCosine * luminance(fixtureBeam),
     sky: 1000 * luminance(whiteCard.skyKlx),
@@ -48,10 +29,10 @@ describe.skipIf(!chromium)('measuring in the synthetic bake', () => {
 
   test('a click on the white card tells its light, part by part, from the archive', async () => {
     await lookAtCard();
-    await page.mouse.click(size.width / 2, size.height / 2);
-    const panel = page.getByRole('region', { name: 'Measured here' });
+    await at.page.mouse.click(size.width / 2, size.height / 2);
+    const panel = at.page.getByRole('region', { name: 'Measured here' });
     await panel.getByText('sky view factor', { exact: false }).waitFor();
-    const measured = (await page.evaluate(() => window.skybake!.measureAt(320, 240)))!;
+    const measured = (await at.page.evaluate(() => window.skybake!.measureAt(320, 240)))!;
     for (const [part, lx] of Object.entries(cardLx)) expect(measured.parts[part]! / lx).toBeCloseTo(1, 5); // 32-bit files
     expect(measured.lx / (cardLx.sun + cardLx.sky + cardLx.lamps)).toBeCloseTo(1, 5);
     expect(measured).toMatchObject({ id: 'card', reflectance: 1, isFilled: false });
@@ -61,16 +42,16 @@ describe.skipIf(!chromium)('measuring in the synthetic bake', () => {
   });
 
   test('a house tells its id and attributes', async () => {
-    await page.evaluate(() => window.skybake!.setCamera([16, -45, 12], [16, -30, 12])); // the south wall of the third house
-    const measured = await page.evaluate(() => window.skybake!.measureAt(320, 240));
+    await at.page.evaluate(() => window.skybake!.setCamera([16, -45, 12], [16, -30, 12])); // the south wall of the third house
+    const measured = await at.page.evaluate(() => window.skybake!.measureAt(320, 240));
     expect(measured).toMatchObject({ id: 'house-3' });
-    const panel = page.getByRole('region', { name: 'Measured here' });
+    const panel = at.page.getByRole('region', { name: 'Measured here' });
     await panel.getByText('Attributes (2)').click();
     expect(await panel.textContent()).toContain('House “3”');
   });
 
   test('the sun path shows the wall itself, its neighbours and the sun', async () => {
-    const chart = page.getByRole('img', { name: /Sun in view on/ });
+    const chart = at.page.getByRole('img', { name: /Sun in view on/ });
     expect(await chart.count()).toBe(1);
     const shapes = await chart.evaluate((svg) => ({ behind: svg.querySelector('.behind')!.getAttribute('d')!.length, paths: svg.querySelectorAll('.path').length, hours: svg.querySelectorAll('.hour').length }));
     expect(shapes.behind).toBeGreaterThan(1000); // half the sky is behind a wall
@@ -79,63 +60,62 @@ describe.skipIf(!chromium)('measuring in the synthetic bake', () => {
   });
 
   test('by keyboard: M measures the middle, focus goes into the panel, Escape closes it and gives the focus back', async () => {
-    await page.keyboard.press('Escape');
+    await at.page.keyboard.press('Escape');
     await lookAtCard();
-    await page.locator('canvas').focus();
-    await page.keyboard.press('m');
-    const panel = page.getByRole('region', { name: 'Measured here' });
+    await at.page.locator('body > canvas').focus();
+    await at.page.keyboard.press('m');
+    const panel = at.page.getByRole('region', { name: 'Measured here' });
     await panel.getByText('lx').first().waitFor();
-    expect(await page.evaluate(() => document.activeElement?.textContent)).toBe('Close');
-    await page.keyboard.press('Escape');
+    expect(await at.page.evaluate(() => document.activeElement?.textContent)).toBe('Close');
+    await at.page.keyboard.press('Escape');
     expect(await panel.count()).toBe(0);
-    expect(await page.evaluate(() => document.activeElement?.tagName)).toBe('CANVAS');
+    expect(await at.page.evaluate(() => document.activeElement?.tagName)).toBe('CANVAS');
   });
 
   test('a drag measures nothing, and neither does the sky', async () => {
-    await page.mouse.move(300, 200);
-    await page.mouse.down();
-    await page.mouse.move(340, 220, { steps: 3 });
-    await page.mouse.up();
-    expect(await page.getByRole('region', { name: 'Measured here' }).count()).toBe(0);
-    await page.evaluate(() => window.skybake!.setCamera([0, -50, 40], [0, -60, 60]));
-    expect(await page.evaluate(() => window.skybake!.measureAt(320, 20))).toBeNull();
+    await at.page.mouse.move(300, 200);
+    await at.page.mouse.down();
+    await at.page.mouse.move(340, 220, { steps: 3 });
+    await at.page.mouse.up();
+    expect(await at.page.getByRole('region', { name: 'Measured here' }).count()).toBe(0);
+    await at.page.evaluate(() => window.skybake!.setCamera([0, -50, 40], [0, -60, 60]));
+    expect(await at.page.evaluate(() => window.skybake!.measureAt(320, 20))).toBeNull();
   });
 
   test('false colours are those of the legend and of the stills', async () => {
     await lookAtCard();
     const scale = { low: 1000, high: 100000, isLogarithmic: true };
-    await page.evaluate((s) => {
+    await at.page.evaluate((s) => {
       window.skybake!.setPicture('illuminance');
       window.skybake!.setScale(s);
     }, scale);
-    const pixel = await page.evaluate(() => window.skybake!.readPixels(320, 240, 1, 1));
+    const pixel = await at.page.evaluate(() => window.skybake!.readPixels(320, 240, 1, 1));
     const expected = colourOf(scale, cardLx.sun + cardLx.sky + cardLx.lamps);
     for (const c of [0, 1, 2] as const) expect(Math.abs(pixel[c]! - expected[c])).toBeLessThanOrEqual(1.5); // 8-bit light: half a percent of a decade or two, and rounding
-    const legend = page.getByRole('region', { name: 'Illuminance, lx' });
+    const legend = at.page.getByRole('region', { name: 'Illuminance, lx' });
     expect(await legend.locator('.ticks').textContent()).toBe('1,0002,0005,00010,00020,00050,000100,000');
-    await page.waitForTimeout(500);
-    expect(page.url()).toContain('&s=illuminance');
-    expect(page.url()).toContain('&fc=1000,100000,log');
+    await at.linkHas('&s=illuminance');
+    await at.linkHas('&fc=1000,100000,log');
     await legend.getByLabel('to', { exact: true }).fill('500');
     await legend.getByLabel('to', { exact: true }).blur();
     expect(await legend.textContent()).toContain('a lower and a higher number');
   });
 
   test('the sky view is a picture, too', async () => {
-    await page.evaluate(() => window.skybake!.setPicture('sky-view'));
+    await at.page.evaluate(() => window.skybake!.setPicture('sky-view'));
     const expected = colourOf({ low: 0, high: 1, isLogarithmic: false }, Math.round(255 * 0.4) / 255);
     const offBy = async (): Promise<number> => {
-      const pixel = await page.evaluate(() => window.skybake!.readPixels(320, 240, 1, 1));
+      const pixel = await at.page.evaluate(() => window.skybake!.readPixels(320, 240, 1, 1));
       return Math.max(...([0, 1, 2] as const).map((c) => Math.abs(pixel[c]! - expected[c])));
     };
     // The picture before stays until the pages of this one have come.
-    await expect.poll(offBy, { timeout: 20_000 }).toBeLessThanOrEqual(1);
-    await page.evaluate(() => window.skybake!.setPicture('lit'));
+    await expect.poll(offBy).toBeLessThanOrEqual(1);
+    await at.page.evaluate(() => window.skybake!.setPicture('lit'));
   });
 
   test('a host without ranges gives the same numbers; a missing archive is told with its address', async () => {
-    const plain = await serve([dist, folder], (name, bytes) => (name === 'light/i1_p1.exr' ? null : bytes), false);
-    const opened = await openPage(browser, size);
+    const plain = await serve([dist, at.folder], (name, bytes) => (name === 'light/i1_p1.exr' ? null : bytes), false);
+    const opened = await openPage(at.browser, size);
     try {
       await whenReady(opened.page, `${plain.url}?antialias=off&lang=en`);
       await opened.page.evaluate(([x, y, z]) => window.skybake!.setCamera([x!, y! - 3, z!], [x!, y!, z!]), whiteCard.center);
@@ -154,7 +134,7 @@ describe.skipIf(!chromium)('measuring in the synthetic bake', () => {
     }
   });
 
-  test('the console stayed clean', () => expect(problems).toEqual([]));
+  testConsole(at);
 });
 
 const bake = process.env['SKYBAKE_BAKE'];

@@ -1,41 +1,15 @@
 // Moments between baked instants, and the page in German; on the synthetic bake.
-import fs from 'node:fs';
-import os from 'node:os';
-import path from 'node:path';
-import type { Browser, Page } from 'playwright-core';
-import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+import { describe, expect, test } from 'vitest';
 import { srgbDecode } from '../../src/core/units';
-import { findChromium, launch, openPage } from '../support/chromium';
-import { writeFixture } from '../support/fixture';
-import { serve, type Host } from '../support/static_host';
-import { dist, whenReady } from '../support/walkthrough_page';
+import { chromium, testConsole, useWalkthrough } from '../support/walkthrough';
 
-const chromium = findChromium();
 const size = { width: 480, height: 360 };
 
 describe.skipIf(!chromium)('moments of the synthetic bake', () => {
-  let browser: Browser;
-  let folder: string;
-  let host: Host;
-  let page: Page;
-  let problems: string[];
-
-  beforeAll(async () => {
-    folder = fs.mkdtempSync(path.join(os.tmpdir(), 'skybake-moments-'));
-    writeFixture(folder);
-    host = await serve([dist, folder]);
-    browser = await launch(chromium!);
-    ({ page, problems } = await openPage(browser, size));
-    await whenReady(page, `${host.url}?antialias=off&lang=de`);
-  });
-  afterAll(async () => {
-    await browser?.close();
-    await host?.close();
-    fs.rmSync(folder, { recursive: true, force: true });
-  });
+  const at = useWalkthrough({ size, query: 'lang=de' });
 
   test('half way, light and sky are the means of both instants', async () => {
-    const lightAt = (moment: number) => page.evaluate(async (m) => {
+    const lightAt = (moment: number) => at.page.evaluate(async (m) => {
       const hook = window.skybake!;
       hook.setToneMapping('none');
       hook.setPicture('lit');
@@ -58,51 +32,49 @@ describe.skipIf(!chromium)('moments of the synthetic bake', () => {
         expect(Math.abs(mean.value - (first.value + second.value) / 2)).toBeLessThanOrEqual(mean.step + (first.step + second.step) / 2);
       }
     }
-    await page.evaluate(() => window.skybake!.setToneMapping('agx'));
+    await at.page.evaluate(() => window.skybake!.setToneMapping('agx'));
   });
 
   test('the slider fades, says that it does, and the link restores it', async () => {
-    const slider = page.getByRole('slider', { name: 'Zeit, als Schieberegler' });
+    const slider = at.page.getByRole('slider', { name: 'Zeit, als Schieberegler' });
     await slider.focus();
-    await page.evaluate(() => window.skybake!.setMoment(0));
-    for (let i = 0; i < 6; ++i) await page.keyboard.press('ArrowRight');
-    await page.waitForFunction(() => Math.abs(window.skybake!.view().moment - 0.3) < 1e-6);
+    await at.page.evaluate(() => window.skybake!.setMoment(0));
+    for (let i = 0; i < 6; ++i) await at.page.keyboard.press('ArrowRight');
+    await at.page.waitForFunction(() => Math.abs(window.skybake!.view().moment - 0.3) < 1e-6);
     expect(await slider.getAttribute('aria-valuetext')).toBe('≈ 21.06.2026, 12:42'); // 0.3 of 10:00 to 19:00
-    expect(await page.locator('.panel').first().textContent()).toContain('Überblendung');
-    await page.waitForTimeout(500);
-    expect(page.url()).toContain('&i=0&f=0.30');
-    const opened = await openPage(browser, size);
-    await whenReady(opened.page, page.url());
+    expect(await at.page.locator('.panel').first().textContent()).toContain('Überblendung');
+    await at.linkHas('&i=0&f=0.30');
+    const opened = await at.another(at.page.url());
     expect(await opened.page.evaluate(() => window.skybake!.view().moment)).toBeCloseTo(0.3, 6);
     await opened.page.close();
   });
 
   test('the times play, until the button or the slider stops them', async () => {
-    await page.evaluate(() => window.skybake!.setMoment(0));
-    await page.getByRole('button', { name: 'Abspielen' }).click();
-    await page.waitForFunction(() => window.skybake!.view().moment > 0.1);
-    await page.getByRole('button', { name: 'Anhalten' }).click();
-    const stopped = await page.evaluate(() => window.skybake!.view().moment);
-    await page.waitForTimeout(500);
-    expect(await page.evaluate(() => window.skybake!.view().moment)).toBeLessThanOrEqual(stopped + 0.05); // the step that was under way
+    await at.page.evaluate(() => window.skybake!.setMoment(0));
+    await at.page.getByRole('button', { name: 'Abspielen' }).click();
+    await at.page.waitForFunction(() => window.skybake!.view().moment > 0.1);
+    await at.page.getByRole('button', { name: 'Anhalten' }).click();
+    const stopped = await at.page.evaluate(() => window.skybake!.view().moment);
+    await at.page.waitForTimeout(500);
+    expect(await at.page.evaluate(() => window.skybake!.view().moment)).toBeLessThanOrEqual(stopped + 0.05); // the step that was under way
   });
 
   test('the page speaks German', async () => {
-    expect(await page.evaluate(() => document.documentElement.lang)).toBe('de');
-    await page.getByRole('button', { name: 'Zu Fuß' }).click();
-    expect(await page.locator('.help').textContent()).toContain('Pfeile: gehen');
-    await page.getByRole('button', { name: 'Überflug' }).click();
+    expect(await at.page.evaluate(() => document.documentElement.lang)).toBe('de');
+    await at.page.getByRole('button', { name: 'Zu Fuß' }).click();
+    expect(await at.page.locator('.help').textContent()).toContain('Pfeile: gehen');
+    await at.page.getByRole('button', { name: 'Überflug' }).click();
   });
 
   test('the language is switched without losing the view', async () => {
-    await page.evaluate(() => window.skybake!.setCamera([30, -40, 25], [0, 0, 4]));
-    await page.waitForTimeout(500);
-    await page.getByLabel('Sprache').selectOption('en');
-    await page.getByRole('button', { name: 'Walk', exact: true }).waitFor();
-    await page.evaluate(() => window.skybake!.ready);
-    expect(page.url()).toContain('lang=en');
-    expect(await page.evaluate(() => window.skybake!.view().position)).toEqual([30, -40, 25].map((v) => expect.closeTo(v, 1)));
+    await at.page.evaluate(() => window.skybake!.setCamera([30, -40, 25], [0, 0, 4]));
+    await at.linkHas('&p=30.00,-40.00,25.00&');
+    await at.page.getByLabel('Sprache').selectOption('en');
+    await at.page.getByRole('button', { name: 'Walk', exact: true }).waitFor();
+    await at.page.evaluate(() => window.skybake!.ready);
+    expect(at.page.url()).toContain('lang=en');
+    expect(await at.page.evaluate(() => window.skybake!.view().position)).toEqual([30, -40, 25].map((v) => expect.closeTo(v, 1)));
   });
 
-  test('the console stayed clean', () => expect(problems).toEqual([]));
+  testConsole(at);
 });

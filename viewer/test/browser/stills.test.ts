@@ -7,6 +7,7 @@ import path from 'node:path';
 import type { Browser } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 import type { Manifest } from '../../src/core/generated/manifest';
+import { wholeLight } from '../../src/core/light_parts';
 import type { Vec3 } from '../../src/core/units';
 import { formatViewState } from '../../src/core/view_state';
 import { findChromium, launch, openPage } from '../support/chromium';
@@ -55,10 +56,10 @@ describe.skipIf(!chromium || !bake || !program)('the walkthrough and the still',
     const instant = name.endsWith('last instant') ? manifest.instants.length - 1 : 0;
     const [position, target] = [view!.position, view!.target] as [Vec3, Vec3];
     const { page, problems } = await openPage(browser, size);
-    await whenReady(page, host.url + formatViewState({ mode, position, target, picture, moment: instant, ev, air: true, off: [], scale: null, comparison: null }));
+    await whenReady(page, host.url + formatViewState({ mode, position, target, picture, moment: instant, ev, air: true, mix: wholeLight, layer: null, scale: null, comparison: null }));
     const shown = await canvas(page, size.width, size.height);
     // The walkthrough has its own will (feet on the ground, no view from below): its link says what it came to.
-    const link = formatViewState({ ...(await page.evaluate(() => window.skybake!.view())), ev, air: true, off: [], scale: null, comparison: null });
+    const link = formatViewState({ ...(await page.evaluate(() => window.skybake!.view())), ev, air: true, mix: wholeLight, layer: null, scale: null, comparison: null });
     await page.close();
     expect(problems).toEqual([]);
 

@@ -26,9 +26,11 @@ export async function launch(executablePath: string): Promise<Browser> {
   });
 }
 
+export interface Size { width: number; height: number }
+
 /** A page that remembers what its console complained of. */
-export async function openPage(browser: Browser, size = { width: 640, height: 360 }): Promise<{ page: Page; problems: string[] }> {
-  const page = await browser.newPage({ viewport: size, deviceScaleFactor: 1, reducedMotion: 'reduce' });
+export async function openPage(browser: Browser, size: Size = { width: 640, height: 360 }, isPhone = false): Promise<{ page: Page; problems: string[] }> {
+  const page = await browser.newPage({ viewport: size, deviceScaleFactor: 1, reducedMotion: 'reduce', hasTouch: isPhone, isMobile: isPhone });
   const problems: string[] = [];
   page.on('console', (message) => {
     if (message.type() === 'error' || message.type() === 'warning') problems.push(message.text());

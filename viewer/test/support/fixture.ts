@@ -5,29 +5,17 @@ import path from 'node:path';
 import type { Manifest } from '../../src/core/generated/manifest';
 import { luminance, srgbEncode } from '../../src/core/units';
 import { encodeExr } from './exr';
+import { makeGlb } from './fixture_glb';
+import { writeLayers } from './fixture_layers';
+import { add, dot, length, type Chart, type Face, type V3 } from './fixture_shapes';
 import { encodePng } from './png';
 
-type V3 = [number, number, number];
 type Instant = Manifest['instants'][number];
-
-const add = (a: V3, b: V3, scale = 1): V3 => [a[0] + scale * b[0], a[1] + scale * b[1], a[2] + scale * b[2]];
-const dot = (a: V3, b: V3) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-const length = (a: V3) => Math.sqrt(dot(a, a));
 
 interface Box { min: V3; max: V3; material: number }
 
-/** A rectangle: corner, two edges, outward normal. `light` overrides what would be computed. */
-interface Face { corner: V3; u: V3; v: V3; normal: V3; material: number; light?: { sky: V3; sunCosine: number } }
-
 const texelM = 0.5;
 const gutter = 2;
-const materials = [
-  { name: 'paving', color: [0.32, 0.3, 0.27], texture: 'paving' },
-  { name: 'plaster', color: [0.62, 0.5, 0.36], texture: 'windows' },
-  { name: 'tiles', color: [0.42, 0.16, 0.1], texture: null },
-  { name: 'white card', color: [1, 1, 1], texture: null },
-] as const;
-
 const boxes: Box[] = [
   { min: [-32, 6, 0], max: [-14, 30, 14], material: 1 },
   { min: [4, 10, 0], max: [26, 24, 9], material: 1 },
@@ -164,8 +152,6 @@ function lightsAt(face: Face, point: V3): { sky: V3; sunCosine: number }[] {
 
 const domeRadiance = instants.map((instant) => dome.map(({ rise }) => skyRadiance(instant, rise)));
 
-interface Chart { face: Face; page: number; x: number; y: number; columns: number; rows: number }
-
 /** Rows of charts beside each other; page 0 has the ground alone. */
 function pack(): { charts: Chart[]; pages: { width: number; height: number }[] } {
   const pages = [{ width: 256, height: 256 }, { width: 256, height: 256 }];
@@ -186,20 +172,6 @@ function pack(): { charts: Chart[]; pages: { width: number; height: number }[] }
     return chart;
   });
   return { charts, pages };
-}
-
-function paint(name: string): { width: number; height: number; channels: 3; pixels: Uint8Array } {
-  const size = 64;
-  const pixels = new Uint8Array(size * size * 3);
-  for (let y = 0; y < size; ++y) {
-    for (let x = 0; x < size; ++x) {
-      const isWindow = name === 'windows' && x >= 20 && x < 44 && y >= 14 && y < 46;
-      const isJoint = name === 'paving' && (x % 32 === 0 || y % 32 === 0);
-      const shade = isWindow ? 70 : isJoint ? 170 : 235 + ((x * 7 + y * 13) % 11);
-      pixels.set([shade, shade, isWindow ? 90 : shade], 3 * (y * size + x));
-    }
-  }
-  return { width: size, height: size, channels: 3, pixels };
 }
 
 function halfBits(value: number): number {
@@ -233,7 +205,7 @@ function skyViewOf(chart: Chart | undefined): number {
 export function writeFixture(folder: string, time: 'before' | 'after' = 'after'): Manifest {
   standing = time === 'before' ? boxes.slice(0, 2) : boxes;
   const { charts, pages } = pack();
-  fs.mkdirSync(path.join(folder, 'light'), { recursive: true });
+  for (const name of ['light', 'layers']) fs.mkdirSync(path.join(folder, name), { recursive: true });
   const written = new Map<string, number>();
   const write = (name: string, bytes: Uint8Array) => {
     fs.writeFileSync(path.join(folder, name), bytes);
@@ -288,6 +260,7 @@ export function writeFixture(folder: string, time: 'before' | 'after' = 'after')
     chart_surfaces: charts.map(({ face }, c) => (c === 0 ? 0 : face.normal[2] > 0.5 ? 2 : 1)),
   })));
 
+  const layers = writeLayers(pages, (p, column, row) => charts[texelAt(p, column, row)?.c ?? -1] ?? null, charts, gutter, write);
   pages.forEach((page, p) => write(`light/p${p}_lamps.png`, encodePng({ ...page, channels: 3, pixels: lampPages[p]! })));
   write('light/lamp_scales.bin', Buffer.from(new Float32Array(charts.map(({ face }) => (face.light ? lampScale : 0))).buffer));
 
@@ -378,6 +351,7 @@ export function writeFixture(folder: string, time: 'before' | 'after' = 'after')
     objects: { uri: 'objects.json' },
     lamp_scales: { uri: 'light/lamp_scales.bin' },
     instants: manifestInstants,
+    layers,
     views: [
       { name: 'From the south-east', position: [70, -85, 55], target: [0, 0, 4] },
       { name: 'On the square', position: [-8, -34, 1.7], target: [4, 10, 5] },
@@ -388,109 +362,4 @@ export function writeFixture(folder: string, time: 'before' | 'after' = 'after')
   };
   fs.writeFileSync(path.join(folder, 'manifest.json'), JSON.stringify(manifest, null, 1));
   return manifest;
-}
-
-/** glTF 2.0 binary: one primitive for each material and page, y up. */
-function makeGlb(charts: readonly Chart[], pages: readonly { width: number; height: number }[]): Buffer {
-  const views: object[] = [];
-  const accessors: object[] = [];
-  const bytes: Buffer[] = [];
-  let size = 0;
-  const addView = (data: Buffer): number => {
-    views.push({ buffer: 0, byteOffset: size, byteLength: data.length });
-    const padded = Buffer.concat([data, Buffer.alloc((4 - (data.length % 4)) % 4)]);
-    bytes.push(padded);
-    size += padded.length;
-    return views.length - 1;
-  };
-  const addAccessor = (values: number[], type: 'SCALAR' | 'VEC2' | 'VEC3', extra: object = {}): number => {
-    const components = { SCALAR: 1, VEC2: 2, VEC3: 3 }[type];
-    accessors.push({ bufferView: addView(Buffer.from(new Float32Array(values).buffer)), componentType: 5126, count: values.length / components, type, ...extra });
-    return accessors.length - 1;
-  };
-  const images = ['paving', 'windows'].map((name) => ({ bufferView: addView(encodePng(paint(name))), mimeType: 'image/png' }));
-
-  const gltfMaterials: object[] = [];
-  const primitives: { attributes: Record<string, number>; indices: number; material: number }[] = [];
-  const normals: number[][] = [];
-  for (const [m, material] of materials.entries()) {
-    for (const page of pages.keys()) {
-      const own = charts.map((chart, index) => ({ chart, index })).filter(({ chart }) => chart.face.material === m && chart.page === page);
-      if (own.length === 0) continue;
-      const position: number[] = [];
-      const uv: number[] = [];
-      const uv1: number[] = [];
-      const chartOf: number[] = [];
-      const normal: number[] = [];
-      const index: number[] = [];
-      for (const { chart, index: c } of own) {
-        const first = chartOf.length;
-        for (const [s, t] of [[0, 0], [1, 0], [1, 1], [0, 1]] as const) {
-          const [x, y, z] = add(add(chart.face.corner, chart.face.u, s), chart.face.v, t);
-          position.push(x, z, -y);
-          normal.push(chart.face.normal[0], chart.face.normal[2], -chart.face.normal[1]);
-          uv.push((s * length(chart.face.u)) / 3, (t * length(chart.face.v)) / 3);
-          uv1.push((chart.x + s * chart.columns) / pages[page]!.width, (chart.y + t * chart.rows) / pages[page]!.height);
-          chartOf.push(c);
-        }
-        index.push(first, first + 2, first + 1, first, first + 3, first + 2);
-      }
-      const corners = [0, 1, 2].map((axis) => position.filter((_, i) => i % 3 === axis));
-      const indices = { bufferView: addView(Buffer.from(new Uint32Array(index).buffer)), componentType: 5125, count: index.length, type: 'SCALAR' };
-      accessors.push(indices);
-      const indexAccessor = accessors.length - 1;
-      gltfMaterials.push({
-        name: material.name,
-        doubleSided: true,
-        pbrMetallicRoughness: {
-          baseColorFactor: [...material.color, 1],
-          metallicFactor: 0,
-          ...(material.texture ? { baseColorTexture: { index: material.texture === 'paving' ? 0 : 1 } } : {}),
-        },
-        occlusionTexture: { index: images.length, texCoord: 1 },
-        extensions: { SKYBAKE_lightmap: { page, texCoord: 1 } },
-      });
-      normals.push(normal);
-      primitives.push({
-        attributes: {
-          POSITION: addAccessor(position, 'VEC3', { min: corners.map((c) => Math.min(...c)), max: corners.map((c) => Math.max(...c)) }),
-          TEXCOORD_0: addAccessor(uv, 'VEC2'),
-          TEXCOORD_1: addAccessor(uv1, 'VEC2'),
-          _CHART: addAccessor(chartOf, 'SCALAR'),
-        },
-        indices: indexAccessor,
-        material: gltfMaterials.length - 1,
-      });
-    }
-  }
-  // What the walkthrough does without stands last, as the writer has it; the picture is larger than what comes in one piece.
-  primitives.forEach(({ attributes }, p) => (attributes['NORMAL'] = addAccessor(normals[p]!, 'VEC3')));
-  const occlusion = { width: 512, height: 256, channels: 3, pixels: Uint8Array.from({ length: 512 * 256 * 3 }, (_, i) => Math.abs(1e7 * Math.sin(i * i))) } as const;
-  images.push({ bufferView: addView(encodePng(occlusion)), mimeType: 'image/png' });
-  const json = Buffer.from(JSON.stringify({
-    asset: { version: '2.0' },
-    extensionsUsed: ['SKYBAKE_lightmap'],
-    scene: 0,
-    scenes: [{ nodes: [0] }],
-    nodes: [{ mesh: 0 }],
-    meshes: [{ primitives }],
-    materials: gltfMaterials,
-    textures: images.map((_, source) => ({ source, sampler: 0 })),
-    samplers: [{ magFilter: 9729, minFilter: 9987, wrapS: 10497, wrapT: 10497 }],
-    images,
-    accessors,
-    bufferViews: views,
-    buffers: [{ byteLength: size }],
-  }));
-  const jsonChunk = Buffer.concat([json, Buffer.alloc((4 - (json.length % 4)) % 4, 0x20)]);
-  const header = Buffer.alloc(20);
-  header.write('glTF', 0, 'latin1');
-  header.writeUInt32LE(2, 4);
-  header.writeUInt32LE(28 + jsonChunk.length + size, 8);
-  header.writeUInt32LE(jsonChunk.length, 12);
-  header.write('JSON', 16, 'latin1');
-  const binHeader = Buffer.alloc(8);
-  binHeader.writeUInt32LE(size, 0);
-  binHeader.write('BIN\0', 4, 'latin1');
-  return Buffer.concat([header, jsonChunk, binHeader, ...bytes]);
 }

@@ -4,8 +4,8 @@ import zlib from 'node:zlib';
 export interface Image {
   width: number;
   height: number;
-  /** 1 grey, 3 RGB. */
-  channels: 1 | 3;
+  /** 1 grey, 3 RGB, 4 RGBA. */
+  channels: 1 | 3 | 4;
   pixels: Uint8Array;
 }
 
@@ -16,7 +16,7 @@ export function encodePng({ width, height, channels, pixels }: Image): Buffer {
   const header = Buffer.alloc(13);
   header.writeUInt32BE(width, 0);
   header.writeUInt32BE(height, 4);
-  header.set([8, channels === 1 ? 0 : 2, 0, 0, 0], 8);
+  header.set([8, channels === 1 ? 0 : channels === 3 ? 2 : 6, 0, 0, 0], 8);
   return Buffer.concat([Buffer.from([0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a]), chunk('IHDR', header), chunk('IDAT', zlib.deflateSync(raw, { level: 9 })), chunk('IEND', Buffer.alloc(0))]);
 }
 
@@ -39,11 +39,11 @@ function crc32(bytes: Uint8Array): number {
   return ~crc >>> 0;
 }
 
-/** Reads eight-bit grey and RGB without interlacing: what encodePng() and skybake write. */
+/** Reads eight-bit grey, RGB and RGBA without interlacing: what encodePng(), skybake and Chromium write. */
 export function decodePng(file: Buffer): Image {
   const width = file.readUInt32BE(16);
   const height = file.readUInt32BE(20);
-  const channels = file[25] === 0 ? 1 : 3;
+  const channels = file[25] === 0 ? 1 : file[25] === 2 ? 3 : 4;
   const parts: Buffer[] = [];
   for (let at = 8; at < file.length; ) {
     const length = file.readUInt32BE(at);

@@ -3,7 +3,7 @@ import fs from 'node:fs';
 import path from 'node:path';
 import { fileURLToPath } from 'node:url';
 import type { Page } from 'playwright-core';
-import type { TestHook } from '../../src/test_hook';
+import type { TestHook } from '../../src/app/test_hook';
 
 const here = path.dirname(fileURLToPath(import.meta.url));
 export const dist = path.join(here, '../../dist');

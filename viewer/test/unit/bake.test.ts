@@ -110,7 +110,7 @@ describe('Bake', () => {
     const bake = await Bake.load(`${host.url}manifest.json`, () => undefined);
     expect(await bake.loadLampScales(() => undefined)).toHaveLength(manifest.charts);
     let bytes = 0;
-    for (const p of manifest.pages.keys()) await bake.loadSharedPage(p, 'lamps', (count) => (bytes += count));
+    for (const p of manifest.pages.keys()) await bake.loadLampPage(p, (count) => (bytes += count));
     expect(bytes).toBe(bake.bytesOfLamps());
     expect(bake.partsOf(0)).toEqual(['sun', 'sky', 'lamps']);
     const { lamp_scales, ...dark } = bake.manifest;

@@ -2,7 +2,7 @@ import { expect, test } from 'vitest';
 import { clampEv, exposureFactor } from '../../src/core/exposure';
 import { formatViewState, parseViewState, type ViewState } from '../../src/core/view_state';
 
-const state: ViewState = { mode: 'walk', position: [1.5, -2.25, 1.7], target: [3, 4, -0.5], picture: 'light', moment: 2.3, ev: -0.5, air: false, off: ['sun', 'lamps'], scale: { low: 10, high: 5000, isLogarithmic: true }, comparison: { shown: 'swipe', divider: 0.25 } };
+const state: ViewState = { mode: 'walk', position: [1.5, -2.25, 1.7], target: [3, 4, -0.5], picture: 'light', moment: 2.3, ev: -0.5, air: false, mix: { off: ['sun', 'lamps'], factors: { sun: 0.5, sky: 1, indirect: 1.25, lamps: 1 } }, layer: 'sun_hours_2026-03-21', scale: { low: 10, high: 5000, isLogarithmic: true }, comparison: { shown: 'swipe', divider: 0.25 } };
 
 test('a link gives back what was sent', () => expect(parseViewState(formatViewState(state))).toEqual(state));
 
@@ -23,7 +23,9 @@ test.each([
   ['#v=1&c=both,0.5', {}],
   ['#v=1&c=a,1.5', {}],
   ['#v=1&fc=0,9,log', {}],
-  ['#v=1&off=moon,lamps', { off: ['lamps'] }],
+  ['#v=1&off=moon,lamps', { mix: { off: ['lamps'], factors: { sun: 1, sky: 1, indirect: 1, lamps: 1 } } }],
+  ['#v=1&k=sun:0.5,moon:2,sky:9,lamps:x', { mix: { off: [], factors: { sun: 0.5, sky: 1, indirect: 1, lamps: 1 } } }],
+  ['#v=1&l=../secret', {}],
 ])('of %j only what makes sense is taken', (hash, expected) => expect(parseViewState(hash)).toEqual(expected));
 
 test('one stop doubles the exposure', () => {

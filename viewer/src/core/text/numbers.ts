@@ -2,6 +2,7 @@
 import { language } from './language';
 
 export function number(value: number, digits: number): string {
+  if (Math.abs(value) < 0.5 * 10 ** -digits) value = 0; // no −0
   return new Intl.NumberFormat(language, { minimumFractionDigits: digits, maximumFractionDigits: digits }).format(value);
 }
 

@@ -1,10 +1,10 @@
 import type { App } from './app';
-import type { FalseColour } from './core/false_colour';
-import type { LightPart } from './core/light_parts';
-import type { Mode, Picture } from './core/pictures';
-import type { Vec3 } from './core/units';
-import type { Measured } from './measuring';
-import type { ViewerStats } from './three/stats';
+import type { FalseColour } from '../core/false_colour';
+import { withFactor, withPartOn, type LightPart } from '../core/light_parts';
+import type { Mode, Picture } from '../core/pictures';
+import type { Vec3 } from '../core/units';
+import type { Measured } from './reading';
+import type { ViewerStats } from '../three/stats';
 
 /**
  * `window.skybake`: what browser tests (and a curious console) hold on to. Positions are local world metres, z up.
@@ -22,8 +22,11 @@ export interface TestHook {
   setPicture(picture: Picture): void;
   setMode(mode: Mode): void;
   setAir(isSeen: boolean): void;
-  /** Switches a part of the light on or off. */
+  /** Switches a part of the light on or off, or scales it. */
   setPart(part: LightPart, isOn: boolean): void;
+  setFactor(part: LightPart, factor: number): void;
+  /** Shows a layer of the study. */
+  setLayer(id: string): void;
   /** Correction of the exposure, stops. */
   setExposure(ev: number): void;
   /** 'none' multiplies by the exposure and clips, so that a pixel can be computed by hand. */
@@ -62,7 +65,9 @@ export function installTestHook(app: App, ready: Promise<void>): void {
       return app.measuring.last;
     },
     setPicture: (picture) => app.setPicture(picture),
-    setPart: (part, isOn) => app.switchPart(part, isOn),
+    setPart: (part, isOn) => app.setMix(withPartOn(viewer.mix, part, isOn)),
+    setFactor: (part, factor) => app.setMix(withFactor(viewer.mix, part, factor)),
+    setLayer: (id) => app.showLayer(id),
     setMode: (mode) => app.setMode(mode),
     setAir: (isSeen) => app.setAir(isSeen),
     setExposure: (ev) => app.setEv(ev),
@@ -74,6 +79,6 @@ export function installTestHook(app: App, ready: Promise<void>): void {
     readPixels: (x, y, width, height) => Array.from(viewer.readPixels(x, y, width, height)),
     exposure: () => viewer.exposure,
     view: () => ({ mode: viewer.mode, ...viewer.view, moment: viewer.moment, picture: viewer.picture }),
-    stats: () => app.stats(),
+    stats: () => viewer.stats(),
   };
 }
