@@ -207,6 +207,8 @@ void add_study_options(CLI::App* verb, StudyOptions& options) {
     verb->add_option("--rule", options.rule, "a shipped rule's name, or a file")->capture_default_str();
     verb->add_flag("--list-rules", options.lists_rules, "print the shipped rules");
     verb->add_option("-o,--output", options.output, "folder for report.html, tables and maps");
+    verb->add_option("--texels", options.texels,
+                     "folder of a bake of the city: the metrics at its texels, as layers of its walkthrough");
     verb->add_option("--lang", options.language, "language of report.html: en or de (default en)")
         ->transform(CLI::CheckedTransformer(kLanguages, CLI::ignore_case).description(""));
     verb->add_option("--verify", options.verified, "a report.json: compute a sample of its rows anew and compare");

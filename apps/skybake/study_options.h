@@ -17,7 +17,7 @@ struct StudyOptions {
     CityOptions city;
     std::string rule = "shadow-study";
     bool lists_rules = false;
-    std::filesystem::path output, verified;
+    std::filesystem::path output, verified, texels;
     std::vector<std::string> receivers;
     std::filesystem::path points, polygons, weather;
     double cell_m = 1.0, storey_height_m = 3.0;

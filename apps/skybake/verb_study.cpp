@@ -4,6 +4,7 @@
 #include <chrono>
 #include <memory>
 
+#include "api/study_texels.h"
 #include "base/error.h"
 #include "base/threads.h"
 #include "io/file/replace_file.h"
@@ -80,6 +81,36 @@ void list_rules() {
     }
 }
 
+/// --texels: no tables and no verdicts, but layers in a bake.
+int run_on_texels(const CommonOptions& common, const StudyOptions& options) {
+    if (!options.output.empty() || !options.receivers.empty())
+        throw InputError(
+            "--texels writes into the bake, and its texels are the receivers: leave out -o and --receivers, or call "
+            "study a second time for tables and a report.");
+    FindingLog findings;
+    const StudyRequest request = study_request(options, findings);
+    ConsoleProgress progress(common);
+    const auto begin = std::chrono::steady_clock::now();
+    TexelStudy result = study_texels(request, options.texels, progress);
+    result.findings.merge(findings);
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    const int exit_code = report_findings(common, result.findings);
+    say(common,
+        fmt::format("{} texels, {:.3g} rays, {:.1f} s", result.texels, static_cast<double>(result.rays), seconds));
+    if (common.wants_json) {
+        print_json({{"bake", options.texels.string()},
+                    {"layers", result.layers},
+                    {"texels", result.texels},
+                    {"rays", result.rays},
+                    {"seconds", seconds},
+                    {"findings", to_json(result.findings)}});
+    } else {
+        for (const std::string& layer : result.layers) fmt::print("{}\n", layer);
+        fmt::print("See them with: skybake view {}\n", options.texels.string());
+    }
+    return exit_code;
+}
+
 int run(const CommonOptions& common, const StudyOptions& options, const CLI::App& verb) {
     if (options.lists_rules) {
         list_rules();
@@ -88,6 +119,7 @@ int run(const CommonOptions& common, const StudyOptions& options, const CLI::App
     const ThreadLimit threads(common.threads);
     if (!options.verified.empty()) return verify_study(common, options.verified);
     if (options.city.files.empty()) throw InputError("study needs a CITY: city files (or --list-rules, or --verify).");
+    if (!options.texels.empty()) return run_on_texels(common, options);
     const auto begin = std::chrono::steady_clock::now();
     const auto seconds = [&] {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -146,6 +178,7 @@ void add_study(CLI::App& app, Program& program) {
         "  skybake study --list-rules\n"
         "  skybake study town.city.json --rule en17037-sunlight --days 03-21 -o study\n"
         "  skybake study town.city.json --rule nyc-ceqr --add tower.city.json --polygons parks.geojson -o study\n"
+        "  skybake study town.city.json --rule tno-light --texels town.bake\n"
         "  skybake study --verify study/report.json",
         [&program, options, verb] { return run(program.common, *options, **verb); });
     add_study_options(*verb, *options);

@@ -175,13 +175,22 @@ void choose_receivers(const StudyRequest& request, const LoadedCity& loaded, Rec
 
 }  // namespace
 
-PreparedStudy prepare_study(const StudyRequest& request, Progress& progress) {
+LoadedCity load_study_city(const StudyRequest& request, Progress& progress) {
     check_rule_has_its_data(request);
-    PreparedStudy study;
-    study.city_files = request.city;
-    study.city_files.insert(study.city_files.end(), request.added.begin(), request.added.end());
-    LoadedCity loaded = load_city(study.city_files, request.load, progress);
+    LoadedCity loaded = load_city(city_files(request), request.load, progress);
     if (loaded.city.objects.empty()) throw InputError("the city is empty: there is nothing to study.");
+    return loaded;
+}
+
+std::vector<std::filesystem::path> city_files(const StudyRequest& request) {
+    std::vector<std::filesystem::path> files = request.city;
+    files.insert(files.end(), request.added.begin(), request.added.end());
+    return files;
+}
+
+PreparedStudy prepare_states(const StudyRequest& request, const LoadedCity& loaded, Progress& progress) {
+    PreparedStudy study;
+    study.city_files = city_files(request);
     const Ids known = ids_of(loaded.city);
     check_known(request.removed, known, "--remove");
     check_known(request.plan, known, "--plan");
@@ -206,12 +215,6 @@ PreparedStudy prepare_study(const StudyRequest& request, Progress& progress) {
         study.before = std::make_unique<CityState>(former ? former->city : without(loaded.city, planned), told_already);
     if (!planned.empty()) study.planned = std::make_unique<CityState>(only(loaded.city, planned), told_already);
 
-    study.receiver_options = request.receivers;
-    choose_receivers(request, loaded, study.receiver_options);
-    study.receiver_options.excluded_objects = study.plan;
-    study.receivers = make_receivers(study.after->scene, study.after->rays, study.receiver_options);
-    check_receivers(study.receivers, study.receiver_options);
-
     if (wants(request.rule, {Metric::sunshine_pct, Metric::winter_sunshine_pct, Metric::irradiation_kwh_m2,
                              Metric::reflected_kwh_m2})) {
         const StudySettings& s = study.settings;
@@ -221,6 +224,17 @@ PreparedStudy prepare_study(const StudyRequest& request, Progress& progress) {
         study.settings.year_light = study.year.get();
     }
     study.looks_at_plan_alone = request.rule.occluders == Occluders::plan;
+    return study;
+}
+
+PreparedStudy prepare_study(const StudyRequest& request, Progress& progress) {
+    const LoadedCity loaded = load_study_city(request, progress);
+    PreparedStudy study = prepare_states(request, loaded, progress);
+    study.receiver_options = request.receivers;
+    choose_receivers(request, loaded, study.receiver_options);
+    study.receiver_options.excluded_objects = study.plan;
+    study.receivers = make_receivers(study.after->scene, study.after->rays, study.receiver_options);
+    check_receivers(study.receivers, study.receiver_options);
     return study;
 }
 

@@ -64,9 +64,18 @@ struct PreparedStudy {
     }
 };
 
-/// Loads the city and builds its states and receivers. Throws InputError for what makes the study impossible: no place
-/// on Earth, a rule without what it needs (former state, weather, plan), a day without sun, no receivers, unknown
-/// objects, a former state in another reference system.
+/// The files of the city with those of the plan.
+std::vector<std::filesystem::path> city_files(const StudyRequest& request);
+
+/// The city with the plan. Throws InputError when it is empty, or when the rule lacks what it needs (former state,
+/// weather, plan).
+LoadedCity load_study_city(const StudyRequest& request, Progress& progress);
+
+/// The states of the loaded city, without receivers. Throws InputError for what makes the study impossible: no place on
+/// Earth, a day without sun, unknown objects, a former state in another reference system.
+PreparedStudy prepare_states(const StudyRequest& request, const LoadedCity& loaded, Progress& progress);
+
+/// Both of the above, and the receivers. Throws InputError where there are none.
 PreparedStudy prepare_study(const StudyRequest& request, Progress& progress);
 
 }  // namespace skybake

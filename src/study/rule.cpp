@@ -45,6 +45,16 @@ std::vector<Metric> Rule::all_metrics() const {
     return all;
 }
 
+std::vector<double> thresholds_of(const Rule& rule, Metric metric) {
+    std::vector<double> thresholds;
+    for (const Criterion& c : rule.criteria) {
+        if (c.metric != metric) continue;
+        if (c.at_least) thresholds.push_back(*c.at_least);
+        if (c.at_most) thresholds.push_back(*c.at_most);
+    }
+    return thresholds;
+}
+
 const char* name_of(Verdict verdict) {
     switch (verdict) {
         case Verdict::none:

@@ -89,6 +89,9 @@ struct Rule {
     std::vector<Metric> all_metrics() const;
 };
 
+/// The thresholds that the rule has for a metric.
+std::vector<double> thresholds_of(const Rule& rule, Metric metric);
+
 enum class Verdict : std::uint8_t { none, pass, borderline, fail };
 const char* name_of(Verdict verdict);
 

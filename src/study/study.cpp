@@ -183,6 +183,15 @@ CriterionResult judged(const Study& study, const Criterion& criterion) {
 
 }  // namespace
 
+std::optional<std::size_t> former_column(const Study& study, std::size_t column) {
+    for (std::size_t c = 0; c < study.columns.size(); ++c) {
+        if (study.columns[c].is_before && study.columns[c].metric == study.columns[column].metric &&
+            study.columns[c].day == study.columns[column].day)
+            return c;
+    }
+    return std::nullopt;
+}
+
 std::vector<SunDay> days_of(const Rule& rule, const StudySettings& settings) {
     std::vector<SunDay> days;
     for (const CalendarDay day : rule.days)

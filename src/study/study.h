@@ -43,6 +43,9 @@ struct Study {
     std::uint64_t sun_rays = 0;
 };
 
+/// The index of the column of the former state that a column is compared with, where there is one.
+std::optional<std::size_t> former_column(const Study& study, std::size_t column);
+
 /// What stands there: triangles and their hierarchy.
 struct StudyCity {
     const Scene* scene = nullptr;

@@ -21,7 +21,5 @@ void add_annex(Html& html, const StudyReport& report, const Words& words);
 std::string threshold_text(const Criterion& criterion, const Words& words);
 /// The columns that maps and tables tell first: those of the criteria's metrics, or the rule's sun, sky and energy.
 std::vector<std::size_t> leading_columns(const Rule& rule, const Study& study);
-/// The column of the former state that belongs to one; none without.
-std::optional<std::size_t> former_column(const Study& study, std::size_t column);
 
 }  // namespace skybake::io

@@ -20,16 +20,6 @@ void figure(Html& html, const std::string& svg, const std::string& caption) {
     html.open("figure").markup(svg).element("figcaption", caption).close("figure");
 }
 
-std::vector<double> thresholds_of(const Rule& rule, Metric metric) {
-    std::vector<double> thresholds;
-    for (const Criterion& c : rule.criteria) {
-        if (c.metric != metric) continue;
-        if (c.at_least) thresholds.push_back(*c.at_least);
-        if (c.at_most) thresholds.push_back(*c.at_most);
-    }
-    return thresholds;
-}
-
 std::string stacked_note(const StudyReport& report, bool shows_worst_low, const Words& words) {
     const std::vector<Receiver>& receivers = report.study.receivers.receivers;
     const bool has_facades = std::any_of(receivers.begin(), receivers.end(),

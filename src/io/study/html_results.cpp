@@ -232,15 +232,6 @@ std::vector<std::size_t> leading_columns(const Rule& rule, const Study& study) {
     return leading;
 }
 
-std::optional<std::size_t> former_column(const Study& study, std::size_t column) {
-    for (std::size_t c = 0; c < study.columns.size(); ++c) {
-        if (study.columns[c].is_before && study.columns[c].metric == study.columns[column].metric &&
-            study.columns[c].day == study.columns[column].day)
-            return c;
-    }
-    return std::nullopt;
-}
-
 void add_results(Html& html, const StudyReport& report, const Words& words) {
     html.element("h2", words("Results", "Ergebnisse"), {{"class", "cut"}});
     add_values(html, report, words);
