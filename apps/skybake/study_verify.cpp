@@ -71,7 +71,7 @@ void compare_row(const json& told, const StudyRow& row, const Study& study, Comp
     }
     for (std::size_t c = 0; c < study.columns.size(); ++c) {
         const double then = told.at("values").at(c).get<double>(), now = static_cast<double>(row.values[c]);
-        const double apart = std::abs(then - now) / honest_difference(study.columns[c].metric);
+        const double apart = std::abs(then - now) / traits_of(study.columns[c].metric).honest_difference;
         ++comparison.values;
         comparison.equal_values += then == now;
         comparison.largest = std::max(comparison.largest, apart);
@@ -109,11 +109,12 @@ int verify_study(const CommonOptions& common, const fs::path& path) {
     json missing = json::array();
     try {
         StudyOptions options;
-        parse_study_arguments(report.at("arguments").get<std::vector<std::string>>(), folder, options);
+        std::uint64_t seed = 0;
+        parse_study_arguments(report.at("arguments").get<std::vector<std::string>>(), folder, options, seed);
         check_inputs(report, study_inputs(options, folder), path);
         compare_tables(report, folder, comparison, missing);
         FindingLog findings;
-        const StudyRequest request = study_request(options, findings);
+        const StudyRequest request = study_request(options, seed, findings);
         ConsoleProgress progress(common);
         compare_rows(report, request, prepare_study(request, progress), comparison);
     } catch (const json::exception& error) {

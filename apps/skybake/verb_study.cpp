@@ -61,7 +61,7 @@ void print_verdicts(const Rule& rule, const StudyResult& result) {
         for (std::size_t c = 0; c < result.study.columns.size(); ++c) {
             const GroupColumn& g = group.columns[c];
             fmt::print("  {:<34} {:8.2f} {} on average, {:.2f} to {:.2f}\n", result.study.columns[c].name, g.mean,
-                       io::unit_of(result.study.columns[c].metric), g.least, g.greatest);
+                       traits_of(result.study.columns[c].metric).unit, g.least, g.greatest);
         }
         for (std::size_t c = 0; c < rule.criteria.size(); ++c) {
             const GroupCriterion& g = group.criteria[c];
@@ -88,7 +88,7 @@ int run_on_texels(const CommonOptions& common, const StudyOptions& options) {
             "--texels writes into the bake, and its texels are the receivers: leave out -o and --receivers, or call "
             "study a second time for tables and a report.");
     FindingLog findings;
-    const StudyRequest request = study_request(options, findings);
+    const StudyRequest request = study_request(options, common.seed, findings);
     ConsoleProgress progress(common);
     const auto begin = std::chrono::steady_clock::now();
     TexelStudy result = study_texels(request, options.texels, progress);
@@ -132,7 +132,7 @@ int run(const CommonOptions& common, const StudyOptions& options, const CLI::App
             throw InputError(fmt::format("-o {}: cannot be made: {}.", options.output.string(), error.message()));
     }
     FindingLog weather_findings;
-    StudyRequest request = study_request(options, weather_findings);
+    StudyRequest request = study_request(options, common.seed, weather_findings);
     request.wants_pictures = writes;
     const Rule& rule = request.rule;
     ConsoleProgress progress(common);
@@ -145,9 +145,9 @@ int run(const CommonOptions& common, const StudyOptions& options, const CLI::App
     if (writes) write_tables(options, rule, result);
     nlohmann::json report = io::study_report(rule, result.study, result.groups, result.facts);
     if (writes) {
-        write_text(folder / "report.html", io::study_html({rule, result.study, result.groups, result.facts,
-                                                           *result.pictures, result.findings, seconds()},
-                                                          options.language));
+        write_text(folder / "report.html",
+                   io::study_html({rule, result.study, result.groups, result.facts, *result.pictures, result.findings},
+                                  options.language));
         // Last, so that a folder with a report.json is whole.
         write_text(folder / "report.json", report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
     }

@@ -9,6 +9,7 @@
 
 #include "api/load_city.h"
 #include "scene/scene.h"
+#include "sky/daylight_settings.h"
 #include "sky/weather.h"
 #include "study/study.h"
 
@@ -30,13 +31,16 @@ struct StudyRequest {
     std::optional<Site> site;                     // instead of the CRS's
     std::optional<Weather> weather;
     Period period;
-    StudySettings settings;  // site, convergence and year_light are filled in here
+    std::optional<DaylightSettings> instants;         // for illuminance
+    std::vector<std::pair<std::string, Rgb>> albedo;  // of reflected light, by surface type (BakeCityOptions::albedo)
+    StudySettings settings;                           // site, convergence, year_light and instants are filled in here
     bool wants_pictures = false;
 };
 
 /// One state of the city, ready for rays.
 struct CityState {
-    CityState(const CityModel& city, FindingLog& findings) : scene(build_scene(city, {}, findings)), rays(scene) {}
+    CityState(const CityModel& city, const SceneOptions& options, FindingLog& findings)
+        : scene(build_scene(city, options, findings)), rays(scene) {}
     Scene scene;
     RayScene rays;
     StudyCity view() const { return {&scene, &rays}; }

@@ -32,6 +32,9 @@ StudyResult study_city(const StudyRequest& request, Progress& progress) {
     facts.receivers = prepared.receiver_options;
     facts.period = request.period;
     if (prepared.year) facts.weather = request.weather ? request.weather->name() : "none: every moment with the sun up";
+    for (std::size_t k = 0; k < prepared.settings.instants.size(); ++k)
+        facts.instants.push_back(
+            fmt::format("{}: {}", prepared.settings.instants[k].label, to_text(sky_at(*request.instants, k))));
     facts.plan = prepared.plan;
     facts.removed = prepared.removed;
     facts.has_before = prepared.former().has_value();

@@ -7,6 +7,7 @@
 
 #include "base/progress.h"
 #include "base/site.h"
+#include "light/path_reference.h"
 #include "study/new_shadow.h"
 #include "study/receivers.h"
 #include "study/rule.h"
@@ -17,10 +18,11 @@ namespace skybake {
 /// One value a sample.
 struct Column {
     Metric metric = Metric::sun_hours;
-    std::optional<std::size_t> day;  // index into Study::days, for metrics of days
-    bool is_before = false;          // of the former state
+    std::optional<std::size_t> day;      // index into Study::days, for metrics of days
+    std::optional<std::size_t> instant;  // index into Study::instants, for metrics of instants
+    bool is_before = false;              // of the former state
     std::vector<float> values;
-    /// "sun_hours_03-21", "before_sky_view_factor".
+    /// "sun_hours_03-21", "before_sky_view_factor", "sun_lx_2026-06-21T12:00+02:00".
     std::string name;
 };
 
@@ -35,11 +37,12 @@ struct CriterionResult {
 struct Study {
     ReceiverSet receivers;
     std::vector<SunDay> days;
+    std::vector<std::string> instants;  // as Daylight::label
     std::vector<Column> columns;
     std::vector<CriterionResult> criteria;  // one a criterion of the rule
     std::vector<NewShadow> new_shadows;     // with a former state
-    std::uint64_t rays = 0;
-    double sun_seconds = 0.0;  // time spent with intervals, and their rays: for rates
+    std::uint64_t rays = 0;                 // without those of reflected light
+    double sun_seconds = 0.0;               // time spent with intervals, and their rays: for rates
     std::uint64_t sun_rays = 0;
 };
 
@@ -61,6 +64,8 @@ struct StudySettings {
     int sky_directions = 4096;
     double ground_albedo = 0.2;             // of reflected_kwh_m2
     const YearLight* year_light = nullptr;  // for sunshine and irradiation
+    std::vector<Daylight> instants;         // for illuminance
+    PathOptions paths{64, 8, 0};            // of reflected light
 };
 
 /// The rule's days as the sun goes at the site.
@@ -68,7 +73,8 @@ std::vector<SunDay> days_of(const Rule& rule, const StudySettings& settings);
 
 /// All metrics of the rule at the samples, in `city` and, where given, in `before`. A rule that looks at the plan's own
 /// shadow gets the plan as `city`. `settings.year_light` must be there for metrics of the year, and `before` for
-/// new_shadow_hours.
+/// new_shadow_hours; metrics of instants have a column for each of `settings.instants`. Reflected light is that of
+/// PathReference, under the year's light as a picture (`daylight_of`) or the instant's.
 Study run_study(const Rule& rule, ReceiverSet receivers, std::vector<SunDay> days, const StudyCity& city,
                 const std::optional<StudyCity>& before, const StudySettings& settings, Progress& progress);
 

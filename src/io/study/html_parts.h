@@ -17,6 +17,8 @@ void add_shadows(Html& html, const StudyReport& report, const Words& words);
 void add_uncertainty(Html& html, const StudyReport& report, const Words& words);
 void add_annex(Html& html, const StudyReport& report, const Words& words);
 
+/// An unordered list of a style of the report's sheet.
+void list(Html& html, const std::vector<std::string>& entries, std::string_view style = "plain");
 /// "at least 2 h", "at most 45°, or 0.8 of the former value".
 std::string threshold_text(const Criterion& criterion, const Words& words);
 /// The columns that maps and tables tell first: those of the criteria's metrics, or the rule's sun, sky and energy.

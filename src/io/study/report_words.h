@@ -39,9 +39,4 @@ class Words {
     Language language_;
 };
 
-/// Decimals that a metric is told with.
-int decimals_of(Metric metric);
-/// Differences below this are none: crossings are right to a second, shares to the sampling of the sky.
-double least_change_of(Metric metric);
-
 }  // namespace skybake::io

@@ -20,6 +20,7 @@ std::string id_of(const Rule& rule, const Study& study, const Column& column) {
         const SunDay& day = study.days[*column.day];
         id += fmt::format("_{:04}-{:02}-{:02}", day.year(), day.day().month, day.day().day);
     }
+    if (column.instant) id += fmt::format("_{}", study.instants[*column.instant]);
     // Rules of the user's may be called anything.
     for (char& c : id) {
         c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -37,6 +38,7 @@ std::string title_of(const Rule& rule, const Study& study, const Column& column,
         const SunDay& day = study.days[*column.day];
         text += fmt::format(", {} {}", words.day(day.day()), day.year());
     }
+    if (column.instant) text += fmt::format(", {}", study.instants[*column.instant]);
     text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
     return fmt::format("{} ({})", text, rule.id);
 }
@@ -47,7 +49,7 @@ BakeLayer named_layer(const Rule& rule, const Study& study, const Column& column
     if (is_change) layer.id += "_change";
     layer.title_en = title_of(rule, study, column, Words(Language::english), is_change);
     layer.title_de = title_of(rule, study, column, Words(Language::german), is_change);
-    layer.unit = unit_of(column.metric);
+    layer.unit = traits_of(column.metric).unit;
     layer.kind = is_change ? LayerKind::diverging : LayerKind::sequential;
     return layer;
 }
@@ -74,7 +76,7 @@ void settle_legend(BakeLayer& layer, const Rule& rule, Metric metric) {
     if (!(least <= greatest)) least = greatest = 0.0;  // no texel has a value
     if (layer.kind == LayerKind::diverging) {
         const double most = std::max(std::abs(least), std::abs(greatest));
-        layer.edges = difference_scale(most, least_change_of(metric)).edges;
+        layer.edges = difference_scale(most, traits_of(metric).least_change).edges;
         std::tie(layer.minimum, layer.maximum) = diverging_range(layer.edges.back());
     } else {
         layer.edges = stepped_scale(least, greatest, thresholds_of(rule, metric)).edges;
