@@ -253,7 +253,8 @@ void add_study_options(CLI::App* verb, StudyOptions& options) {
     add_city_options(verb, options.city, false);
     verb->add_option("--rule", options.rule, "a shipped rule's name, or a file")->capture_default_str();
     verb->add_flag("--list-rules", options.lists_rules, "print the shipped rules");
-    verb->add_option("-o,--output", options.output, "folder for report.html, tables and maps");
+    verb->add_option("-o,--output", options.output,
+                     "folder for report.html, tables, maps, and the city as CityJSON with the results as attributes");
     verb->add_option("--texels", options.texels,
                      "folder of a bake of the city: the metrics at its texels, as layers of its walkthrough");
     verb->add_option("--lang", options.language, "language of report.html: en or de (default en)")
@@ -268,7 +269,7 @@ void add_study_options(CLI::App* verb, StudyOptions& options) {
     verb->add_option("--plan", options.plan, "ids of objects of the city that are the plan: before is without them");
     verb->add_option("--remove", options.removed, "ids of objects that the plan takes away");
     verb->add_option("--before", options.before, "files of the former city");
-    verb->add_flag("--no-cells", options.leaves_out_cells, "write no cells.csv and cells.gpkg");
+    verb->add_flag("--no-cells", options.leaves_out_cells, "write no cells.csv, cells.gpkg and city.city.json");
 }
 
 std::vector<io::StudyInput> study_inputs(const StudyOptions& options, const fs::path& folder) {

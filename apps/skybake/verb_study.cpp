@@ -11,6 +11,7 @@
 #include "io/gdal/write_maps.h"
 #include "io/manifest/sha256.h"
 #include "io/rules/read_rule.h"
+#include "io/study/study_city_json.h"
 #include "io/study/study_html.h"
 #include "program.h"
 #include "study_options.h"
@@ -37,7 +38,8 @@ void write_tables(const StudyOptions& options, const Rule& rule, StudyResult& re
     if (!options.leaves_out_cells) {
         io::write_cells_csv(folder / "cells.csv", rule, study);
         io::write_cells_gpkg(folder / "cells.gpkg", rule, study, result.facts.crs);
-        names.push_back("cells.csv");
+        io::write_study_city(std::move(*result.city), folder / "city.city.json", rule, study, result.groups);
+        names.insert(names.end(), {"cells.csv", "city.city.json"});
     }
     io::write_ground_tiff(folder / "ground.tif", study, result.facts.crs);
     if (!result.pictures->shadows.empty())
@@ -134,6 +136,7 @@ int run(const CommonOptions& common, const StudyOptions& options, const CLI::App
     FindingLog weather_findings;
     StudyRequest request = study_request(options, common.seed, weather_findings);
     request.wants_pictures = writes;
+    request.wants_city = writes && !options.leaves_out_cells;
     const Rule& rule = request.rule;
     ConsoleProgress progress(common);
     StudyResult result = study_city(request, progress);

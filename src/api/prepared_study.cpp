@@ -249,6 +249,10 @@ PreparedStudy prepare_study(const StudyRequest& request, Progress& progress) {
     study.receiver_options.excluded_objects = study.plan;
     study.receivers = make_receivers(study.after->scene, study.after->rays, study.receiver_options);
     check_receivers(study.receivers, study.receiver_options);
+    if (request.wants_city) {
+        study.city_model = without(loaded.city, Ids(study.removed.begin(), study.removed.end()));
+        to_named_system(*study.city_model, loaded.georeference);
+    }
     return study;
 }
 

@@ -35,6 +35,7 @@ struct StudyRequest {
     std::vector<std::pair<std::string, Rgb>> albedo;  // of reflected light, by surface type (BakeCityOptions::albedo)
     StudySettings settings;                           // site, convergence, year_light and instants are filled in here
     bool wants_pictures = false;
+    bool wants_city = false;  // StudyResult::city
 };
 
 /// One state of the city, ready for rays.
@@ -47,6 +48,8 @@ struct CityState {
 };
 
 struct PreparedStudy {
+    std::optional<CityModel> city_model;            // what stands there after, where the request wants it, in the
+                                                    // reference system that it names
     std::vector<std::filesystem::path> city_files;  // with those of the plan
     std::string crs;
     std::vector<std::string> plan, removed;  // objects with all below them; sorted

@@ -260,6 +260,12 @@ std::vector<SunDay> days_of(const Rule& rule, const StudySettings& settings) {
     return days;
 }
 
+std::vector<CriterionResult> judged(const Rule& rule, const Study& study) {
+    std::vector<CriterionResult> results;
+    for (const Criterion& criterion : rule.criteria) results.push_back(judged(study, criterion));
+    return results;
+}
+
 Study run_study(const Rule& rule, ReceiverSet receivers, std::vector<SunDay> days, const StudyCity& city,
                 const std::optional<StudyCity>& before, const StudySettings& settings, Progress& progress) {
     Study study;
@@ -276,7 +282,7 @@ Study run_study(const Rule& rule, ReceiverSet receivers, std::vector<SunDay> day
         add_instants(columns, study, city, settings, progress);
         if (before) add_instants(before_columns, study, *before, settings, progress);
     }
-    for (const Criterion& criterion : rule.criteria) study.criteria.push_back(judged(study, criterion));
+    study.criteria = judged(rule, study);
     return study;
 }
 

@@ -71,6 +71,9 @@ struct StudySettings {
 /// The rule's days as the sun goes at the site.
 std::vector<SunDay> days_of(const Rule& rule, const StudySettings& settings);
 
+/// What the rule's criteria say of the columns: Study::criteria.
+std::vector<CriterionResult> judged(const Rule& rule, const Study& study);
+
 /// All metrics of the rule at the samples, in `city` and, where given, in `before`. A rule that looks at the plan's own
 /// shadow gets the plan as `city`. `settings.year_light` must be there for metrics of the year, and `before` for
 /// new_shadow_hours; metrics of instants have a column for each of `settings.instants`. Reflected light is that of

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "box_city.h"
@@ -154,6 +155,46 @@ TEST_F(StudyVerb, VerifiesItsReport) {
     EXPECT_THAT(refusal({"--verify", report}), HasSubstr("is damaged"));
 }
 
+TEST_F(StudyVerb, VerifiesItsSummaries) {
+    json_of({place.str("city.json"), "--rule", "bre209-vsc", "--receivers", "facades", "--add", place.str("tower.json"),
+             "-o", place.str("out")});
+    const auto verified = [&](int exit_code) {
+        Running program(place, {"study", "--verify", place.str("out/report.json"), "--json"});
+        EXPECT_EQ(program.exit_code(), exit_code) << program.err();
+        return nlohmann::json::parse(program.out());
+    };
+    const nlohmann::json good = verified(0);
+    const std::string groups = text_of(place / "out" / "groups.csv"), cells = text_of(place / "out" / "cells.csv");
+    EXPECT_EQ(good["groups"], std::count(groups.begin(), groups.end(), '\n') - 1);
+    EXPECT_EQ(good["verdicts"], std::count(cells.begin(), cells.end(), '\n') - 1);
+    // Someone betters a summary, and the hash beside it.
+    const std::string report = text_of(place / "out" / "report.json");
+    const auto tampered = [&](const std::string& text, const std::string& from, const std::string& to) {
+        std::string other = text;
+        const std::size_t at = other.find(from);
+        EXPECT_NE(at, std::string::npos) << from;
+        return at == std::string::npos ? other : other.replace(at, from.size(), to);
+    };
+    const std::size_t kind = groups.find("\nkind,");
+    const std::string row = groups.substr(kind, groups.find('\n', kind + 1) - kind);
+    const std::string mean = row.substr(row.find(",fail,") + 6, 4);
+    std::ofstream(place / "out" / "groups.csv") << tampered(groups, ",fail," + mean, ",fail,9" + mean);
+    EXPECT_THAT(verified(1)["differences"].dump(), HasSubstr("in groups.csv, and"));
+    std::ofstream(place / "out" / "groups.csv") << groups;
+    const nlohmann::json told = nlohmann::json::parse(report);
+    nlohmann::json bettered = told;
+    bettered["buildings"][0]["verdict"] = told["buildings"][0]["verdict"] == "pass" ? "fail" : "pass";
+    std::ofstream(place / "out" / "report.json") << bettered;
+    EXPECT_THAT(verified(1)["differences"].dump(), HasSubstr("building house: the report says"));
+    // The same study makes the same report, to the last byte of each file.
+    json_of({place.str("city.json"), "--rule", "bre209-vsc", "--receivers", "facades", "--add", place.str("tower.json"),
+             "-o", place.str("again")});
+    for (const char* file : {"report.html", "cells.csv", "groups.csv", "city.city.json"}) {
+        EXPECT_EQ(text_of(place / "again" / file), text_of(place / "out" / file)) << file;
+    }
+    EXPECT_EQ(text_of(place / "again" / "report.json"), report);
+}
+
 TEST_F(StudyVerb, ReportsKeepTheirSchema) {
     const nlohmann::json schema = nlohmann::json::parse(text_of(SKYBAKE_SCHEMA_FOLDER "/study.schema.json"));
     json_of({place.str("city.json"), "--rule", "nyc-ceqr", "--add", place.str("tower.json"), "--polygons",
@@ -167,6 +208,47 @@ TEST_F(StudyVerb, ReportsKeepTheirSchema) {
     }
     EXPECT_TRUE(std::filesystem::exists(place / "a" / "shadows.gpkg"));
     EXPECT_FALSE(std::filesystem::exists(place / "b" / "shadows.gpkg"));  // the rule has no days
+}
+
+TEST_F(StudyVerb, CityHasTheResultsAsAttributes) {
+    nlohmann::json city = nlohmann::json::parse(text_of(place / "city.json"));
+    city["CityObjects"]["house"]["attributes"] = {{"name", "Alte Mühle"}};
+    std::ofstream(place / "city.json") << city;
+    const nlohmann::json report =
+        json_of({place.str("city.json"), "--rule", "bre209-vsc", "--receivers", "facades,roofs", "--add",
+                 place.str("tower.json"), "--metrics", "sky_view_factor", "-o", place.str("out")});
+    const std::string written = place.str("out/city.city.json");
+    // Our own reader takes it without a finding, in the same reference system.
+    Running check(place, {"check", written, "--json", "--strict"});
+    EXPECT_EQ(check.exit_code(), 0) << check.err();
+    const nlohmann::json checked = nlohmann::json::parse(check.out());
+    EXPECT_EQ(checked["findings"], nlohmann::json::array());
+    EXPECT_EQ(checked["buildings"], 2);
+    EXPECT_THAT(checked["crs"].dump(), HasSubstr("31256"));
+    const nlohmann::json result = nlohmann::json::parse(text_of(written));
+    const nlohmann::json& house = result["CityObjects"]["house"];
+    EXPECT_EQ(house["attributes"]["name"], "Alte Mühle");
+    EXPECT_EQ(house["attributes"]["skybake_rule"], "bre209-vsc 1.0.0");
+    EXPECT_EQ(house["attributes"]["skybake_verdict"], report["buildings"][0]["verdict"]);
+    EXPECT_FALSE(result["CityObjects"]["tower"].contains("attributes"));  // the plan's own surfaces are no receivers
+    // Four walls and a roof, each with its own numbers; the floor has none. In groups.csv they stand as facades.
+    const nlohmann::json& semantics = house["geometry"][0]["semantics"];
+    std::map<std::string, int> types;
+    const std::string groups = text_of(place / "out" / "groups.csv");
+    for (const nlohmann::json& surface : semantics["surfaces"]) {
+        ++types[surface["type"].get<std::string>()];
+        if (surface["type"] == "GroundSurface") {
+            EXPECT_EQ(surface.size(), 1u);
+            continue;
+        }
+        const double view = surface.at("skybake_sky_view_factor").get<double>();
+        EXPECT_NEAR(view, surface["type"] == "RoofSurface" ? 0.95 : 0.4, 0.12);
+        EXPECT_THAT(groups, HasSubstr("," + surface.at("skybake_sky_view_factor").dump() + ","));
+    }
+    EXPECT_EQ(types["WallSurface"], 4);
+    EXPECT_EQ(types["RoofSurface"], 1);
+    json_of({place.str("city.json"), "-o", place.str("none"), "--no-cells"});
+    EXPECT_FALSE(std::filesystem::exists(place / "none" / "city.city.json"));
 }
 
 TEST_F(StudyVerb, MonthsAreAPeriod) {
