@@ -36,6 +36,14 @@ struct Criterion {
 
 enum class Occluders { all, plan };  // who throws shadows: the whole city, or the planned objects alone
 
+/// What a rule says to humans, in another language than English.
+struct RuleTexts {
+    std::string title;
+    std::vector<std::string> confirmed;
+    std::vector<std::string> to_check;
+    std::vector<std::string> criteria;  // Criterion::text of each
+};
+
 struct Rule {
     std::string id;
     std::string version;
@@ -44,6 +52,7 @@ struct Rule {
     std::string source_date;  // of the edition
     std::vector<std::string> confirmed;
     std::vector<std::string> to_check;
+    std::optional<RuleTexts> german;
 
     std::vector<ReceiverKind> kinds;
     double height_m = 0.0;  // of ground and polygon samples

@@ -114,6 +114,14 @@ TEST_F(StudyVerb, ReportIsOneSafeFile) {
     const std::string german = text_of(place / "de" / "report.html");
     EXPECT_THAT(german, HasSubstr("<html lang=\"de\">"));
     EXPECT_THAT(german, HasSubstr("mindestens 1,5 h"));
+    // The rule's own texts, too.
+    EXPECT_THAT(german, HasSubstr("<h1>EN 17037: Besonnung</h1>"));
+    EXPECT_THAT(german, HasSubstr("Die Sonne zählt ab dieser geometrischen Höhe"));
+    for (const char* english : {"exposure to sunlight", "at least", "The text of the standard"})
+        EXPECT_THAT(german, Not(HasSubstr(english)));
+    // Levels that are not required are no failures.
+    EXPECT_THAT(german, HasSubstr("verdict reported"));
+    EXPECT_THAT(german, HasSubstr("erreicht (nicht verbindlich)"));
 }
 
 TEST_F(StudyVerb, VerifiesItsReport) {

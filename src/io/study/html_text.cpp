@@ -27,6 +27,14 @@ std::string degrees(double radians, int decimals, const Words& words) {
     return words.number(degrees_from_radians(radians), decimals) + "°";
 }
 
+/// Of a criterion that is only reported.
+std::string reported(const GroupCriterion& result, const Words& words) {
+    if (result.verdict == Verdict::pass) return words("reached (not required)", "erreicht (nicht verbindlich)");
+    if (result.verdict == Verdict::borderline)
+        return words("borderline (not required)", "Grenzfall (nicht verbindlich)");
+    return words("not reached (not required)", "nicht erreicht (nicht verbindlich)");
+}
+
 void add_verdicts(Html& html, const StudyReport& report, const Words& words) {
     if (report.rule.criteria.empty()) {
         html.element("p", words("The rule has no threshold: values are reported, nothing is judged.",
@@ -40,8 +48,11 @@ void add_verdicts(Html& html, const StudyReport& report, const Words& words) {
             const GroupCriterion& result = group.criteria[c];
             if (result.verdict == Verdict::none) continue;
             const Criterion& criterion = report.rule.criteria[c];
-            html.open("div", {{"class", std::string("verdict ") + name_of(result.verdict)}}).open("strong");
-            html.text(fmt::format("{}: {}", words.kind(group.kind), words.verdict(result.verdict)));
+            // What is not required cannot be failed.
+            const std::string style = criterion.is_required ? name_of(result.verdict) : "reported";
+            html.open("div", {{"class", fmt::format("verdict {}", style)}}).open("strong");
+            html.text(fmt::format("{}: {}", words.kind(group.kind),
+                                  criterion.is_required ? words.verdict(result.verdict) : reported(result, words)));
             html.close("strong").open("div");
             html.text(fmt::format("{} ({})", criterion.text.empty() ? criterion.id : criterion.text,
                                   threshold_text(criterion, words)));
@@ -127,8 +138,10 @@ void add_data(Html& html, const StudyReport& report, const Words& words) {
     html.element("h2", words("Data", "Daten"));
     std::vector<std::vector<Html::Cell>> rows;
     for (const StudyInput& input : facts.inputs)
-        rows.push_back(
-            {input.role, {input.file, "words"}, {words.count(input.bytes), "number"}, {input.sha256, "key"}});
+        rows.push_back({words.role(input.role),
+                        {input.file, "words"},
+                        {words.count(input.bytes), "number"},
+                        {input.sha256, "key"}});
     html.table({words("As", "Als"), words("File", "Datei"), words("Bytes", "Bytes"), "SHA-256"}, rows);
     const Site& site = facts.settings.site;
     list(html,

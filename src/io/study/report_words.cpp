@@ -103,6 +103,16 @@ std::string Words::kind(ReceiverKind kind) const {
     return "";
 }
 
+std::string Words::role(std::string_view role) const {
+    constexpr std::pair<std::string_view, std::string_view> kGerman[] = {
+        {"rule", "Regel"},        {"city", "Stadt"},    {"plan", "Vorhaben"}, {"before", "frühere Stadt"},
+        {"polygons", "Polygone"}, {"points", "Punkte"}, {"weather", "Wetter"}};
+    for (const auto& [english, german] : kGerman) {
+        if (english == role) return (*this)(english, german);
+    }
+    return std::string(role);
+}
+
 std::string Words::verdict(Verdict verdict) const {
     const Words& w = *this;
     switch (verdict) {
