@@ -121,9 +121,15 @@ TEST_F(StudyTexels, TellWhatATowerTakes) {
         const nlohmann::json entry = layer("shadow-study_sun_hours_2026-03-21_change");
         EXPECT_EQ(entry["kind"], "diverging");
         EXPECT_EQ(entry["title"]["de"], "Stunden direkter Sonne, Änderung, 21. März 2026 (shadow-study)");
-        // No change is a grey level of its own.
+        // No change is within its class, as the picture has it.
         const double least = entry["minimum"], most = entry["maximum"];
-        EXPECT_NEAR(least + (most - least) * 128 / 255, 0.0, 1e-9);
+        const double grey = std::round(255.0 * (0.0 - least) / (most - least));
+        const double none = least + (most - least) * grey / 255.0;
+        const auto above = std::find_if(entry["edges"].begin(), entry["edges"].end(),
+                                        [](const nlohmann::json& edge) { return edge.get<double>() > 0.0; });
+        EXPECT_LT(std::abs(none), above->get<double>());
+        EXPECT_EQ(*(above - 1), -above->get<double>());
+        EXPECT_EQ(least, -most);
         const std::vector<float> change = values_of(entry),
                                  after = values_of(layer("shadow-study_sun_hours_2026-03-21"));
         const LightmapPage base = io::read_base(io::open_bake(place / "bake"), 0);

@@ -20,7 +20,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 std::uint8_t grey_of(const BakeLayer& layer, float value) {
-    if (std::isnan(value)) return 0;
+    if (std::isnan(value)) value = 0.0f;
     const double share = (static_cast<double>(value) - layer.minimum) / (layer.maximum - layer.minimum);
     return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(share, 0.0, 1.0)));
 }
@@ -65,11 +65,6 @@ Json& entry_of(Json& list, const char* key, const std::string& name) {
 }
 
 }  // namespace
-
-std::pair<double, double> diverging_range(double most) {
-    const double step = most / 127.0;
-    return {-128.0 * step, 127.0 * step};
-}
 
 void fill_charts(const LightmapPage& page, std::vector<float>& values) {
     std::vector<std::size_t> open;

@@ -24,16 +24,13 @@ struct BakeLayer {
     std::vector<std::vector<float>> values;
 };
 
-/// minimum and maximum of a diverging layer of ±`most`: no difference is exactly grey 128.
-std::pair<double, double> diverging_range(double most);
-
 /// Values for the picture: texels of a chart without a value (its gutter, buried texels) get the mean of their
 /// neighbours within the chart, from ring to ring; charts without any value keep NaN.
 void fill_charts(const LightmapPage& page, std::vector<float>& values);
 
 /// Adds the layers to the bake, in place of those of the same id: EXRs (channel `value`) and 8-bit pictures (linear,
-/// NaN as grey 0) beside the light, and the manifest last. Throws InputError when the place cannot be written,
-/// Interrupted when the user stops; the manifest then is as it was.
+/// NaN as 0, or as the end of the range that is nearest to it) beside the light, and the manifest last. Throws
+/// InputError when the place cannot be written, Interrupted when the user stops; the manifest then is as it was.
 void write_layers(const StoredBake& bake, const std::vector<BakeLayer>& layers, Progress& progress);
 
 }  // namespace skybake::io

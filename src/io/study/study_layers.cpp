@@ -76,8 +76,12 @@ void settle_legend(BakeLayer& layer, const Rule& rule, Metric metric) {
     if (!(least <= greatest)) least = greatest = 0.0;  // no texel has a value
     if (layer.kind == LayerKind::diverging) {
         const double most = std::max(std::abs(least), std::abs(greatest));
-        layer.edges = difference_scale(most, traits_of(metric).least_change).edges;
-        std::tie(layer.minimum, layer.maximum) = diverging_range(layer.edges.back());
+        const double range = difference_scale(most, traits_of(metric).least_change).edges.back();
+        // Half a grey level of 2 · range / 255 is the least that the picture can tell from none.
+        const double least_change = std::max(traits_of(metric).least_change, round_step(range / 255.0));
+        layer.edges = difference_scale(most, least_change).edges;
+        layer.maximum = layer.edges.back();
+        layer.minimum = -layer.maximum;
     } else {
         layer.edges = stepped_scale(least, greatest, thresholds_of(rule, metric)).edges;
         layer.minimum = layer.edges.front();
