@@ -7,6 +7,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "base/nearest_word.h"
 #include "io/epw/read_epw.h"
 #include "io/manifest/sha256.h"
 #include "io/points/points_csv.h"
@@ -152,6 +153,48 @@ void add_time_options(CLI::App* verb, StudyOptions& options) {
         ->check(CLI::Range(16, 65536));
 }
 
+void add_reflection_options(CLI::App* verb, StudyOptions& options) {
+    verb->add_option("--at", options.at, "illuminance at these instants, as in skybake probe");
+    verb->add_option("--sky", options.sky, "sky at those instants, as in skybake probe")->capture_default_str();
+    verb->add_option("--albedo", options.albedo, "of surfaces without material, as in skybake probe");
+    verb->add_option("--paths", options.paths, "paths per cell, for reflected light")
+        ->capture_default_str()
+        ->check(CLI::Range(2, 1 << 30));
+    verb->add_option("--bounces", options.bounces, "reflections at most")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 1000));
+}
+
+/// What --at asks of the light, by the words of skybake probe.
+LightOptions light_of(const StudyOptions& options) {
+    LightOptions light;
+    light.at = options.at;
+    light.timezone = options.timezone;
+    light.site = options.site;
+    light.sky = options.sky;
+    light.weather = options.weather.string();
+    light.albedo = options.albedo;
+    return light;
+}
+
+void add_metrics(const StudyOptions& options, Rule& rule) {
+    for (const std::string& name : options.metrics) {
+        const std::optional<Metric> metric = metric_of(name);
+        if (!metric) {
+            std::vector<std::string> names;
+            for (int m = 0; m < kMetricCount; ++m) names.emplace_back(name_of(static_cast<Metric>(m)));
+            throw InputError(
+                fmt::format("--metrics '{}': is no metric; did you mean '{}'?", name, nearest_word(name, names)));
+        }
+        if (is_of_days(*metric) && rule.days.empty())
+            throw InputError(fmt::format("--metrics {}: the rule has no days. Pass --days.", name));
+        rule.metrics.push_back(*metric);
+    }
+    if (options.at.empty()) return;
+    for (const Metric metric : {Metric::sun_lx, Metric::sky_lx, Metric::indirect_lx, Metric::illuminance_lx})
+        rule.metrics.push_back(metric);
+}
+
 }  // namespace
 
 fs::path rules_folder() {
@@ -160,7 +203,7 @@ fs::path rules_folder() {
     return program.parent_path().parent_path() / "share" / "skybake" / "rules";
 }
 
-StudyRequest study_request(const StudyOptions& options, FindingLog& weather_findings) {
+StudyRequest study_request(const StudyOptions& options, std::uint64_t seed, FindingLog& weather_findings) {
     StudyRequest request;
     request.rule_file = rule_file_of(options.rule, rules_folder());
     request.rule = io::read_rule(request.rule_file);
@@ -168,6 +211,7 @@ StudyRequest study_request(const StudyOptions& options, FindingLog& weather_find
     if (!options.days.empty()) rule.days = parse_days(options.days);
     if (!options.step.empty()) rule.sampled = parse_step(options.step);
     if (options.min_elevation_deg) rule.min_elevation_deg = *options.min_elevation_deg;
+    add_metrics(options, rule);
 
     request.city = options.city.files;
     request.load = options.city.load_options();
@@ -197,6 +241,9 @@ StudyRequest study_request(const StudyOptions& options, FindingLog& weather_find
     request.settings.scan_s = options.scan_s;
     request.settings.sky_directions = options.sky_directions;
     request.settings.ground_albedo = options.ground_albedo;
+    request.settings.paths = {options.paths, options.bounces, seed};
+    request.albedo = parse_albedo(options.albedo);
+    if (!options.at.empty()) request.instants = daylight_settings_of(light_of(options));
     return request;
 }
 
@@ -206,17 +253,23 @@ void add_study_options(CLI::App* verb, StudyOptions& options) {
     add_city_options(verb, options.city, false);
     verb->add_option("--rule", options.rule, "a shipped rule's name, or a file")->capture_default_str();
     verb->add_flag("--list-rules", options.lists_rules, "print the shipped rules");
-    verb->add_option("-o,--output", options.output, "folder for report.html, tables and maps");
+    verb->add_option("-o,--output", options.output,
+                     "folder for report.html, tables, maps, and the city as CityJSON with the results as attributes");
+    verb->add_option("--texels", options.texels,
+                     "folder of a bake of the city: the metrics at its texels, as layers of its walkthrough");
     verb->add_option("--lang", options.language, "language of report.html: en or de (default en)")
         ->transform(CLI::CheckedTransformer(kLanguages, CLI::ignore_case).description(""));
     verb->add_option("--verify", options.verified, "a report.json: compute a sample of its rows anew and compare");
     add_receiver_options(verb, options);
     add_time_options(verb, options);
+    verb->add_option("--metrics", options.metrics, "metrics besides those of the rule, such as indirect_kwh_m2")
+        ->delimiter(',');
+    add_reflection_options(verb, options);
     verb->add_option("--add", options.added, "files of the plan: after is the city with them");
     verb->add_option("--plan", options.plan, "ids of objects of the city that are the plan: before is without them");
     verb->add_option("--remove", options.removed, "ids of objects that the plan takes away");
     verb->add_option("--before", options.before, "files of the former city");
-    verb->add_flag("--no-cells", options.leaves_out_cells, "write no cells.csv and cells.gpkg");
+    verb->add_flag("--no-cells", options.leaves_out_cells, "write no cells.csv, cells.gpkg and city.city.json");
 }
 
 std::vector<io::StudyInput> study_inputs(const StudyOptions& options, const fs::path& folder) {
@@ -250,10 +303,10 @@ std::vector<std::string> study_arguments(const CLI::App& verb, const StudyOption
     return words;
 }
 
-void parse_study_arguments(const std::vector<std::string>& arguments, const fs::path& folder, StudyOptions& options) {
+void parse_study_arguments(const std::vector<std::string>& arguments, const fs::path& folder, StudyOptions& options,
+                           std::uint64_t& seed) {
     CLI::App app;
-    CommonOptions common;
-    app.add_option("--seed", common.seed);
+    app.add_option("--seed", seed);
     add_study_options(&app, options);
     try {
         app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));

@@ -10,6 +10,7 @@
 #include "api/study_city.h"
 #include "city_options.h"
 #include "io/study/report_words.h"
+#include "light_options.h"
 
 namespace skybake::cli {
 
@@ -17,7 +18,7 @@ struct StudyOptions {
     CityOptions city;
     std::string rule = "shadow-study";
     bool lists_rules = false;
-    std::filesystem::path output, verified;
+    std::filesystem::path output, verified, texels;
     std::vector<std::string> receivers;
     std::filesystem::path points, polygons, weather;
     double cell_m = 1.0, storey_height_m = 3.0;
@@ -27,6 +28,9 @@ struct StudyOptions {
     double scan_s = 60.0;
     int sky_directions = 4096;
     double ground_albedo = 0.2;
+    std::vector<std::string> metrics;
+    std::string at, sky = kDefaultSky, albedo;
+    int paths = 64, bounces = 8;
     std::vector<std::filesystem::path> added, before;
     std::vector<std::string> plan, removed;
     bool leaves_out_cells = false;
@@ -39,8 +43,8 @@ std::filesystem::path rules_folder();
 /// Declares all options; `options` must outlive the parsing.
 void add_study_options(CLI::App* verb, StudyOptions& options);
 
-/// The request, with rule, points and weather read. Throws InputError for what cannot be.
-StudyRequest study_request(const StudyOptions& options, FindingLog& weather_findings);
+/// The request, with rule, points and weather read; `seed` is of the paths. Throws InputError for what cannot be.
+StudyRequest study_request(const StudyOptions& options, std::uint64_t seed, FindingLog& weather_findings);
 
 /// Every file that the study reads, hashed, with its path as seen from `folder` (a shipped rule by its bare name).
 std::vector<io::StudyInput> study_inputs(const StudyOptions& options, const std::filesystem::path& folder);
@@ -52,6 +56,6 @@ std::vector<std::string> study_arguments(const CLI::App& verb, const StudyOption
 
 /// The options of such words, their files as seen from here again. Throws InputError for unknown words.
 void parse_study_arguments(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
-                           StudyOptions& options);
+                           StudyOptions& options, std::uint64_t& seed);
 
 }  // namespace skybake::cli

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "io/file/replace_file.h"
 #include "io/manifest/sha256.h"
+#include "io/study/check_tables.h"
 #include "study/study_rows.h"
 #include "study_options.h"
 
@@ -44,7 +45,9 @@ void check_inputs(const json& report, const std::vector<io::StudyInput>& inputs,
 /// What was compared, and what did not agree.
 struct Comparison {
     std::size_t rows = 0, values = 0, equal_values = 0;
-    double largest = 0.0;  // difference in units of the honest one
+    double largest = 0.0;                    // difference in units of the honest one
+    std::uint64_t groups = 0, verdicts = 0;  // of the tables, that were made again from cells.csv
+    std::vector<Column> columns;             // of the study, without values
     std::vector<std::string> differences;
 
     void differ(std::string what) { differences.push_back(std::move(what)); }
@@ -71,7 +74,7 @@ void compare_row(const json& told, const StudyRow& row, const Study& study, Comp
     }
     for (std::size_t c = 0; c < study.columns.size(); ++c) {
         const double then = told.at("values").at(c).get<double>(), now = static_cast<double>(row.values[c]);
-        const double apart = std::abs(then - now) / honest_difference(study.columns[c].metric);
+        const double apart = std::abs(then - now) / traits_of(study.columns[c].metric).honest_difference;
         ++comparison.values;
         comparison.equal_values += then == now;
         comparison.largest = std::max(comparison.largest, apart);
@@ -96,8 +99,50 @@ void compare_rows(const json& report, const StudyRequest& request, const Prepare
                                       prepared.city(), prepared.former(), prepared.settings, silent);
         for (const StudyRow& row : rows_of(study, {{0, packet.end - packet.begin}}))
             compare_row(told.at(next++), row, study, comparison);
+        comparison.columns = study.columns;
     }
     if (next != told.size()) comparison.differ(fmt::format("the report has {} rows, not {}", told.size(), next));
+}
+
+/// The summaries of the report itself.
+void compare_report_groups(const json& report, const Study& study, const std::vector<Group>& groups,
+                           Comparison& comparison) {
+    for (const auto& [key, level] : {std::pair{"kinds", Level::kind}, {"buildings", Level::building}}) {
+        std::size_t next = 0;
+        const json& told = report.at(key);
+        for (const Group& group : groups) {
+            if (group.level != level) continue;
+            const json& entry = told.at(next++);
+            const std::string name = fmt::format("{} {}", name_of(level), group.id);
+            if (entry.at("id") != group.id || entry.at("verdict") != name_of(group.verdict)) {
+                comparison.differ(fmt::format("{}: the report says {} ({}), its cells {}", name,
+                                              entry.at("verdict").dump(), entry.at("id").dump(),
+                                              name_of(group.verdict)));
+            }
+            for (std::size_t c = 0; c < study.columns.size(); ++c) {
+                const double then = entry.at("values").at(study.columns[c].name).at("mean").get<double>();
+                const double now = group.columns[c].mean;
+                if (std::abs(then - now) > io::kTableDigits * std::max(std::abs(now), 0.1))
+                    comparison.differ(fmt::format("{}: the mean of {} is {:.6g} in the report, and {:.6g} by its cells",
+                                                  name, study.columns[c].name, then, now));
+            }
+        }
+        if (next != told.size())
+            comparison.differ(fmt::format("the report tells of {} {}, its cells of {}", told.size(), key, next));
+    }
+}
+
+/// Summaries and verdicts from the rows of cells.csv, where it is there.
+void compare_summaries(const json& report, const fs::path& folder, const Rule& rule, Comparison& comparison) {
+    if (!fs::exists(folder / "cells.csv") || !fs::exists(folder / "groups.csv")) return;
+    const io::TableStudy table = io::read_cells_csv(folder / "cells.csv", rule, comparison.columns);
+    comparison.verdicts = table.verdicts;
+    for (const std::string& text : table.other_verdicts) comparison.differ(text);
+    const std::vector<Group> groups = rolled_up(rule, table.study);
+    for (const std::string& text :
+         io::check_groups_csv(folder / "groups.csv", rule, table.study, groups, comparison.groups))
+        comparison.differ(text);
+    compare_report_groups(report, table.study, groups, comparison);
 }
 
 }  // namespace
@@ -109,13 +154,15 @@ int verify_study(const CommonOptions& common, const fs::path& path) {
     json missing = json::array();
     try {
         StudyOptions options;
-        parse_study_arguments(report.at("arguments").get<std::vector<std::string>>(), folder, options);
+        std::uint64_t seed = 0;
+        parse_study_arguments(report.at("arguments").get<std::vector<std::string>>(), folder, options, seed);
         check_inputs(report, study_inputs(options, folder), path);
         compare_tables(report, folder, comparison, missing);
         FindingLog findings;
-        const StudyRequest request = study_request(options, findings);
+        const StudyRequest request = study_request(options, seed, findings);
         ConsoleProgress progress(common);
         compare_rows(report, request, prepare_study(request, progress), comparison);
+        if (!comparison.columns.empty()) compare_summaries(report, folder, request.rule, comparison);
     } catch (const json::exception& error) {
         throw InputError(fmt::format("{}: is damaged: {}", path.string(), error.what()));
     }
@@ -131,12 +178,17 @@ int verify_study(const CommonOptions& common, const fs::path& path) {
                     {"values", comparison.values},
                     {"equal_values", comparison.equal_values},
                     {"largest_difference", comparison.largest},
+                    {"groups", comparison.groups},
+                    {"verdicts", comparison.verdicts},
                     {"differences", comparison.differences},
                     {"missing_tables", missing}});
     } else {
         fmt::print("{}: {} rows computed anew, {} of {} values to the last bit, {} difference{}.\n",
                    agrees ? "agrees" : "does not agree", comparison.rows, comparison.equal_values, comparison.values,
                    comparison.differences.size(), comparison.differences.size() == 1 ? "" : "s");
+        if (comparison.groups > 0)
+            fmt::print("{} groups and {} verdicts of cells made again from cells.csv.\n", comparison.groups,
+                       comparison.verdicts);
         for (const json& name : missing) fmt::print("not here to compare: {}\n", name.get<std::string>());
     }
     return agrees ? kDone : kDifference;

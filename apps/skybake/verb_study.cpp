@@ -4,12 +4,14 @@
 #include <chrono>
 #include <memory>
 
+#include "api/study_texels.h"
 #include "base/error.h"
 #include "base/threads.h"
 #include "io/file/replace_file.h"
 #include "io/gdal/write_maps.h"
 #include "io/manifest/sha256.h"
 #include "io/rules/read_rule.h"
+#include "io/study/study_city_json.h"
 #include "io/study/study_html.h"
 #include "program.h"
 #include "study_options.h"
@@ -36,7 +38,8 @@ void write_tables(const StudyOptions& options, const Rule& rule, StudyResult& re
     if (!options.leaves_out_cells) {
         io::write_cells_csv(folder / "cells.csv", rule, study);
         io::write_cells_gpkg(folder / "cells.gpkg", rule, study, result.facts.crs);
-        names.push_back("cells.csv");
+        io::write_study_city(std::move(*result.city), folder / "city.city.json", rule, study, result.groups);
+        names.insert(names.end(), {"cells.csv", "city.city.json"});
     }
     io::write_ground_tiff(folder / "ground.tif", study, result.facts.crs);
     if (!result.pictures->shadows.empty())
@@ -60,7 +63,7 @@ void print_verdicts(const Rule& rule, const StudyResult& result) {
         for (std::size_t c = 0; c < result.study.columns.size(); ++c) {
             const GroupColumn& g = group.columns[c];
             fmt::print("  {:<34} {:8.2f} {} on average, {:.2f} to {:.2f}\n", result.study.columns[c].name, g.mean,
-                       io::unit_of(result.study.columns[c].metric), g.least, g.greatest);
+                       traits_of(result.study.columns[c].metric).unit, g.least, g.greatest);
         }
         for (std::size_t c = 0; c < rule.criteria.size(); ++c) {
             const GroupCriterion& g = group.criteria[c];
@@ -80,6 +83,36 @@ void list_rules() {
     }
 }
 
+/// --texels: no tables and no verdicts, but layers in a bake.
+int run_on_texels(const CommonOptions& common, const StudyOptions& options) {
+    if (!options.output.empty() || !options.receivers.empty())
+        throw InputError(
+            "--texels writes into the bake, and its texels are the receivers: leave out -o and --receivers, or call "
+            "study a second time for tables and a report.");
+    FindingLog findings;
+    const StudyRequest request = study_request(options, common.seed, findings);
+    ConsoleProgress progress(common);
+    const auto begin = std::chrono::steady_clock::now();
+    TexelStudy result = study_texels(request, options.texels, progress);
+    result.findings.merge(findings);
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    const int exit_code = report_findings(common, result.findings);
+    say(common,
+        fmt::format("{} texels, {:.3g} rays, {:.1f} s", result.texels, static_cast<double>(result.rays), seconds));
+    if (common.wants_json) {
+        print_json({{"bake", options.texels.string()},
+                    {"layers", result.layers},
+                    {"texels", result.texels},
+                    {"rays", result.rays},
+                    {"seconds", seconds},
+                    {"findings", to_json(result.findings)}});
+    } else {
+        for (const std::string& layer : result.layers) fmt::print("{}\n", layer);
+        fmt::print("See them with: skybake view {}\n", options.texels.string());
+    }
+    return exit_code;
+}
+
 int run(const CommonOptions& common, const StudyOptions& options, const CLI::App& verb) {
     if (options.lists_rules) {
         list_rules();
@@ -88,6 +121,7 @@ int run(const CommonOptions& common, const StudyOptions& options, const CLI::App
     const ThreadLimit threads(common.threads);
     if (!options.verified.empty()) return verify_study(common, options.verified);
     if (options.city.files.empty()) throw InputError("study needs a CITY: city files (or --list-rules, or --verify).");
+    if (!options.texels.empty()) return run_on_texels(common, options);
     const auto begin = std::chrono::steady_clock::now();
     const auto seconds = [&] {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -100,8 +134,9 @@ int run(const CommonOptions& common, const StudyOptions& options, const CLI::App
             throw InputError(fmt::format("-o {}: cannot be made: {}.", options.output.string(), error.message()));
     }
     FindingLog weather_findings;
-    StudyRequest request = study_request(options, weather_findings);
+    StudyRequest request = study_request(options, common.seed, weather_findings);
     request.wants_pictures = writes;
+    request.wants_city = writes && !options.leaves_out_cells;
     const Rule& rule = request.rule;
     ConsoleProgress progress(common);
     StudyResult result = study_city(request, progress);
@@ -113,9 +148,9 @@ int run(const CommonOptions& common, const StudyOptions& options, const CLI::App
     if (writes) write_tables(options, rule, result);
     nlohmann::json report = io::study_report(rule, result.study, result.groups, result.facts);
     if (writes) {
-        write_text(folder / "report.html", io::study_html({rule, result.study, result.groups, result.facts,
-                                                           *result.pictures, result.findings, seconds()},
-                                                          options.language));
+        write_text(folder / "report.html",
+                   io::study_html({rule, result.study, result.groups, result.facts, *result.pictures, result.findings},
+                                  options.language));
         // Last, so that a folder with a report.json is whole.
         write_text(folder / "report.json", report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
     }
@@ -146,6 +181,7 @@ void add_study(CLI::App& app, Program& program) {
         "  skybake study --list-rules\n"
         "  skybake study town.city.json --rule en17037-sunlight --days 03-21 -o study\n"
         "  skybake study town.city.json --rule nyc-ceqr --add tower.city.json --polygons parks.geojson -o study\n"
+        "  skybake study town.city.json --rule tno-light --texels town.bake\n"
         "  skybake study --verify study/report.json",
         [&program, options, verb] { return run(program.common, *options, **verb); });
     add_study_options(*verb, *options);

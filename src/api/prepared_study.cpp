@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <unordered_set>
 
+#include "api/bake_city.h"
+#include "api/load_albedo.h"
 #include "base/error.h"
 #include "base/nearest_word.h"
 #include "io/gdal/read_areas.h"
@@ -16,6 +18,8 @@ namespace {
 
 using Ids = std::unordered_set<std::string>;
 
+/// Of texels that a study does not have: faces are cut into pieces as a bake of half a metre does.
+constexpr float kPieceTexelM = 0.5f;
 constexpr std::int64_t kMostRasterPixels = 100'000'000;  // of ground.tif: 400 MB a band
 
 Ids ids_of(const CityModel& city) {
@@ -56,10 +60,9 @@ CityModel only(const CityModel& city, const Ids& ids) {
     return part;
 }
 
-bool wants(const Rule& rule, std::initializer_list<Metric> some) {
+bool wants(const Rule& rule, bool (*is_such)(Metric)) {
     const std::vector<Metric> all = rule.all_metrics();
-    return std::any_of(some.begin(), some.end(),
-                       [&](Metric m) { return std::find(all.begin(), all.end(), m) != all.end(); });
+    return std::any_of(all.begin(), all.end(), is_such);
 }
 
 void check_rule_has_its_data(const StudyRequest& request) {
@@ -77,10 +80,11 @@ void check_rule_has_its_data(const StudyRequest& request) {
             "rule {}: looks at the shadow of the plan alone. Say what the plan is by --add FILE or --plan ID.",
             rule.id));
     }
-    const bool needs_weather =
-        rule.needs_weather || wants(rule, {Metric::irradiation_kwh_m2, Metric::reflected_kwh_m2});
+    const bool needs_weather = rule.needs_weather || wants(rule, is_energy);
     if (needs_weather && !request.weather)
         throw InputError(fmt::format("rule {}: needs weather. Pass --weather FILE.epw.", rule.id));
+    if (wants(rule, is_of_instants) && !request.instants)
+        throw InputError(fmt::format("rule {}: illuminance is that of instants. Pass --at TIME.", rule.id));
 }
 
 void check_days_have_sun(const Rule& rule, const std::vector<SunDay>& days, const StudySettings& settings) {
@@ -175,13 +179,22 @@ void choose_receivers(const StudyRequest& request, const LoadedCity& loaded, Rec
 
 }  // namespace
 
-PreparedStudy prepare_study(const StudyRequest& request, Progress& progress) {
+LoadedCity load_study_city(const StudyRequest& request, Progress& progress) {
     check_rule_has_its_data(request);
-    PreparedStudy study;
-    study.city_files = request.city;
-    study.city_files.insert(study.city_files.end(), request.added.begin(), request.added.end());
-    LoadedCity loaded = load_city(study.city_files, request.load, progress);
+    LoadedCity loaded = load_city(city_files(request), request.load, progress);
     if (loaded.city.objects.empty()) throw InputError("the city is empty: there is nothing to study.");
+    return loaded;
+}
+
+std::vector<std::filesystem::path> city_files(const StudyRequest& request) {
+    std::vector<std::filesystem::path> files = request.city;
+    files.insert(files.end(), request.added.begin(), request.added.end());
+    return files;
+}
+
+PreparedStudy prepare_states(const StudyRequest& request, const LoadedCity& loaded, Progress& progress) {
+    PreparedStudy study;
+    study.city_files = city_files(request);
     const Ids known = ids_of(loaded.city);
     check_known(request.removed, known, "--remove");
     check_known(request.plan, known, "--plan");
@@ -201,26 +214,45 @@ PreparedStudy prepare_study(const StudyRequest& request, Progress& progress) {
 
     study.findings = loaded.findings;
     FindingLog told_already;
-    study.after = std::make_unique<CityState>(without(loaded.city, removed), study.findings);
+    const SceneOptions options = scene_options(request.albedo, kPieceTexelM);
+    study.after = std::make_unique<CityState>(without(loaded.city, removed), options, study.findings);
     if (former || !planned.empty() || !removed.empty())
-        study.before = std::make_unique<CityState>(former ? former->city : without(loaded.city, planned), told_already);
-    if (!planned.empty()) study.planned = std::make_unique<CityState>(only(loaded.city, planned), told_already);
+        study.before =
+            std::make_unique<CityState>(former ? former->city : without(loaded.city, planned), options, told_already);
+    if (!planned.empty())
+        study.planned = std::make_unique<CityState>(only(loaded.city, planned), options, told_already);
+    if (wants(request.rule, is_reflected)) {
+        for (CityState* state : {study.after.get(), study.before.get(), study.planned.get()}) {
+            if (state)
+                load_albedo_images(state->scene, state == study.after.get() ? study.findings : told_already, progress);
+        }
+    }
 
-    study.receiver_options = request.receivers;
-    choose_receivers(request, loaded, study.receiver_options);
-    study.receiver_options.excluded_objects = study.plan;
-    study.receivers = make_receivers(study.after->scene, study.after->rays, study.receiver_options);
-    check_receivers(study.receivers, study.receiver_options);
-
-    if (wants(request.rule, {Metric::sunshine_pct, Metric::winter_sunshine_pct, Metric::irradiation_kwh_m2,
-                             Metric::reflected_kwh_m2})) {
-        const StudySettings& s = study.settings;
+    const StudySettings& s = study.settings;
+    if (wants(request.rule, is_of_year)) {
         study.year = std::make_unique<YearLight>(
             request.weather ? year_light(*request.weather, s.site, s.convergence_rad, request.period)
                             : cloudless_year(s.year, s.site, s.convergence_rad, request.period));
         study.settings.year_light = study.year.get();
     }
+    if (request.instants)
+        study.settings.instants = make_daylights(*request.instants, s.site, s.convergence_rad, study.findings);
     study.looks_at_plan_alone = request.rule.occluders == Occluders::plan;
+    return study;
+}
+
+PreparedStudy prepare_study(const StudyRequest& request, Progress& progress) {
+    const LoadedCity loaded = load_study_city(request, progress);
+    PreparedStudy study = prepare_states(request, loaded, progress);
+    study.receiver_options = request.receivers;
+    choose_receivers(request, loaded, study.receiver_options);
+    study.receiver_options.excluded_objects = study.plan;
+    study.receivers = make_receivers(study.after->scene, study.after->rays, study.receiver_options);
+    check_receivers(study.receivers, study.receiver_options);
+    if (request.wants_city) {
+        study.city_model = without(loaded.city, Ids(study.removed.begin(), study.removed.end()));
+        to_named_system(*study.city_model, loaded.georeference);
+    }
     return study;
 }
 

@@ -9,6 +9,7 @@
 
 #include "api/load_city.h"
 #include "scene/scene.h"
+#include "sky/daylight_settings.h"
 #include "sky/weather.h"
 #include "study/study.h"
 
@@ -30,19 +31,25 @@ struct StudyRequest {
     std::optional<Site> site;                     // instead of the CRS's
     std::optional<Weather> weather;
     Period period;
-    StudySettings settings;  // site, convergence and year_light are filled in here
+    std::optional<DaylightSettings> instants;         // for illuminance
+    std::vector<std::pair<std::string, Rgb>> albedo;  // of reflected light, by surface type (BakeCityOptions::albedo)
+    StudySettings settings;                           // site, convergence, year_light and instants are filled in here
     bool wants_pictures = false;
+    bool wants_city = false;  // StudyResult::city
 };
 
 /// One state of the city, ready for rays.
 struct CityState {
-    CityState(const CityModel& city, FindingLog& findings) : scene(build_scene(city, {}, findings)), rays(scene) {}
+    CityState(const CityModel& city, const SceneOptions& options, FindingLog& findings)
+        : scene(build_scene(city, options, findings)), rays(scene) {}
     Scene scene;
     RayScene rays;
     StudyCity view() const { return {&scene, &rays}; }
 };
 
 struct PreparedStudy {
+    std::optional<CityModel> city_model;            // what stands there after, where the request wants it, in the
+                                                    // reference system that it names
     std::vector<std::filesystem::path> city_files;  // with those of the plan
     std::string crs;
     std::vector<std::string> plan, removed;  // objects with all below them; sorted
@@ -64,9 +71,18 @@ struct PreparedStudy {
     }
 };
 
-/// Loads the city and builds its states and receivers. Throws InputError for what makes the study impossible: no place
-/// on Earth, a rule without what it needs (former state, weather, plan), a day without sun, no receivers, unknown
-/// objects, a former state in another reference system.
+/// The files of the city with those of the plan.
+std::vector<std::filesystem::path> city_files(const StudyRequest& request);
+
+/// The city with the plan. Throws InputError when it is empty, or when the rule lacks what it needs (former state,
+/// weather, plan).
+LoadedCity load_study_city(const StudyRequest& request, Progress& progress);
+
+/// The states of the loaded city, without receivers. Throws InputError for what makes the study impossible: no place on
+/// Earth, a day without sun, unknown objects, a former state in another reference system.
+PreparedStudy prepare_states(const StudyRequest& request, const LoadedCity& loaded, Progress& progress);
+
+/// Both of the above, and the receivers. Throws InputError where there are none.
 PreparedStudy prepare_study(const StudyRequest& request, Progress& progress);
 
 }  // namespace skybake

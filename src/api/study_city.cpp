@@ -15,13 +15,10 @@ StudyResult study_city(const StudyRequest& request, Progress& progress) {
     StudyResult result;
     PreparedStudy prepared = prepare_study(request, progress);
     result.findings = prepared.findings;
+    result.city = std::move(prepared.city_model);
     result.study = run_study(request.rule, std::move(prepared.receivers), std::move(prepared.days), prepared.city(),
                              prepared.former(), prepared.settings, progress);
-    for (const Level level : {Level::kind, Level::building, Level::storey, Level::facade, Level::receiver}) {
-        std::vector<Group> groups = rolled_up(request.rule, result.study, level);
-        result.groups.insert(result.groups.end(), std::make_move_iterator(groups.begin()),
-                             std::make_move_iterator(groups.end()));
-    }
+    result.groups = rolled_up(request.rule, result.study);
     if (request.wants_pictures) result.pictures = study_pictures(request.rule, prepared, result.study, progress);
 
     io::StudyFacts& facts = result.facts;
@@ -32,6 +29,9 @@ StudyResult study_city(const StudyRequest& request, Progress& progress) {
     facts.receivers = prepared.receiver_options;
     facts.period = request.period;
     if (prepared.year) facts.weather = request.weather ? request.weather->name() : "none: every moment with the sun up";
+    for (std::size_t k = 0; k < prepared.settings.instants.size(); ++k)
+        facts.instants.push_back(
+            fmt::format("{}: {}", prepared.settings.instants[k].label, to_text(sky_at(*request.instants, k))));
     facts.plan = prepared.plan;
     facts.removed = prepared.removed;
     facts.has_before = prepared.former().has_value();

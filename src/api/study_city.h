@@ -18,6 +18,7 @@ struct StudyResult {
     Study study;
     std::vector<Group> groups;              // of all levels
     std::optional<StudyPictures> pictures;  // where the request wants them
+    std::optional<CityModel> city;          // where the request wants it
     io::StudyFacts facts;                   // inputs and arguments are the caller's to fill in
     FindingLog findings;
 };

@@ -57,15 +57,15 @@ std::vector<MapGround> maps_of(const PreparedStudy& prepared, const Study& study
 /// What a sample loses by the plan in the rule's first metric that has a former state.
 std::vector<float> losses(const Rule& rule, const Study& study) {
     std::vector<float> loss(study.receivers.samples.size());
-    for (const Column& column : study.columns) {
-        if (column.is_before || !prefers_more(column.metric)) continue;
-        const auto former = std::find_if(study.columns.begin(), study.columns.end(), [&](const Column& c) {
-            return c.is_before && c.metric == column.metric && c.day == column.day;
-        });
+    for (std::size_t c = 0; c < study.columns.size(); ++c) {
+        const Column& column = study.columns[c];
+        if (column.is_before || !traits_of(column.metric).prefers_more) continue;
+        const std::optional<std::size_t> former = former_column(study, c);
         const bool is_asked = rule.criteria.empty() || column.metric == rule.criteria.front().metric ||
                               rule.criteria.front().metric == Metric::new_shadow_hours;
-        if (former == study.columns.end() || !is_asked) continue;
-        for (std::size_t i = 0; i < loss.size(); ++i) loss[i] = std::max(loss[i], former->values[i] - column.values[i]);
+        if (!former || !is_asked) continue;
+        for (std::size_t i = 0; i < loss.size(); ++i)
+            loss[i] = std::max(loss[i], study.columns[*former].values[i] - column.values[i]);
     }
     return loss;
 }

@@ -36,6 +36,7 @@ struct Receiver {
     std::string building_id;               // empty for ground, polygons and points
     std::string object_id;                 // likewise
     std::optional<std::uint32_t> surface;  // the lowest source index of its polygons within the object
+    std::vector<std::uint32_t> polygons;   // source indices of all of them, ascending
     std::optional<int> storey;             // 0 is the lowest
     double area_m2 = 0.0;
     std::uint32_t sample_begin = 0;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <unordered_map>
 
 namespace skybake {
@@ -127,6 +128,15 @@ std::vector<Group> rolled_up(const Rule& rule, const Study& study, Level level) 
         judge_group(rule, group);
     }
     return groups;
+}
+
+std::vector<Group> rolled_up(const Rule& rule, const Study& study) {
+    std::vector<Group> all;
+    for (const Level level : {Level::kind, Level::building, Level::storey, Level::facade, Level::receiver}) {
+        std::vector<Group> groups = rolled_up(rule, study, level);
+        all.insert(all.end(), std::make_move_iterator(groups.begin()), std::make_move_iterator(groups.end()));
+    }
+    return all;
 }
 
 }  // namespace skybake

@@ -51,4 +51,7 @@ struct Group {
 /// does so with the borderline cells. Free points weigh 1 each.
 std::vector<Group> rolled_up(const Rule& rule, const Study& study, Level level);
 
+/// Those of all levels: kinds, buildings, storeys, façades, receivers.
+std::vector<Group> rolled_up(const Rule& rule, const Study& study);
+
 }  // namespace skybake

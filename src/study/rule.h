@@ -5,37 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "study/metric.h"
 #include "study/receivers.h"
 #include "study/sun_day.h"
 #include "study/sun_intervals.h"
 
 namespace skybake {
-
-/// What can be computed at a sample; units in the name as written in rules and tables.
-enum class Metric : std::uint8_t {
-    sun_hours,             // of the window
-    longest_sun_hours,     // without a break
-    shadow_hours,          // of the window
-    longest_shadow_hours,  // without a break
-    new_shadow_hours,      // sunny before the plan and not after it
-    sky_view_factor,
-    sky_component_pct,  // "VSC" on a wall: of the CIE overcast sky
-    sunshine_pct,       // "APSH": of the year's expected sunshine
-    winter_sunshine_pct,
-    irradiation_kwh_m2,  // beam and sky
-    reflected_kwh_m2,    // by open level ground: StudySettings::ground_albedo
-    light_incidence_deg
-};
-inline constexpr int kMetricCount = 12;
-
-/// "sun_hours", …
-const char* name_of(Metric metric);
-/// None for an unknown name.
-std::optional<Metric> metric_of(std::string_view name);
-/// True for the metrics that hang on the rule's days.
-bool is_of_days(Metric metric);
-/// True for the metrics of which more is better for who wants sun and sky.
-bool prefers_more(Metric metric);
 
 /// How the values of several days become one.
 enum class OverDays { each, any, mean };  // for a threshold "at least": the least, the greatest, the mean
@@ -61,6 +36,14 @@ struct Criterion {
 
 enum class Occluders { all, plan };  // who throws shadows: the whole city, or the planned objects alone
 
+/// What a rule says to humans, in another language than English.
+struct RuleTexts {
+    std::string title;
+    std::vector<std::string> confirmed;
+    std::vector<std::string> to_check;
+    std::vector<std::string> criteria;  // Criterion::text of each
+};
+
 struct Rule {
     std::string id;
     std::string version;
@@ -69,6 +52,7 @@ struct Rule {
     std::string source_date;  // of the edition
     std::vector<std::string> confirmed;
     std::vector<std::string> to_check;
+    std::optional<RuleTexts> german;
 
     std::vector<ReceiverKind> kinds;
     double height_m = 0.0;  // of ground and polygon samples
@@ -88,6 +72,9 @@ struct Rule {
     /// The metrics to compute, each once.
     std::vector<Metric> all_metrics() const;
 };
+
+/// The thresholds that the rule has for a metric.
+std::vector<double> thresholds_of(const Rule& rule, Metric metric);
 
 enum class Verdict : std::uint8_t { none, pass, borderline, fail };
 const char* name_of(Verdict verdict);

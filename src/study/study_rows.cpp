@@ -43,22 +43,4 @@ ReceiverSet only_packet(const ReceiverSet& receivers, const PacketRange& packet)
     return part;
 }
 
-double honest_difference(Metric metric) {
-    switch (metric) {
-        case Metric::sky_view_factor:
-            return 0.001;
-        case Metric::sky_component_pct:
-        case Metric::sunshine_pct:
-        case Metric::winter_sunshine_pct:
-            return 0.1;
-        case Metric::irradiation_kwh_m2:
-        case Metric::reflected_kwh_m2:
-            return 1.0;
-        case Metric::light_incidence_deg:
-            return 1.0;
-        default:
-            return 4.0 / 3600.0;  // two ends of 2 s
-    }
-}
-
 }  // namespace skybake

@@ -27,8 +27,4 @@ std::vector<StudyRow> rows_of(const Study& study, const std::vector<PacketRange>
 /// The set with nothing but one packet of it; all receivers stay, most of them without samples.
 ReceiverSet only_packet(const ReceiverSet& receivers, const PacketRange& packet);
 
-/// How far a metric's values of two honest runs may be apart, on another processor or with another version of a
-/// library: crossings within 2 s; shares and energy by what a few rays along edges make.
-double honest_difference(Metric metric);
-
 }  // namespace skybake

@@ -289,6 +289,10 @@ void add_surface_cells(ReceiverSet& set, const Scene& scene, ReceiverKind kind, 
             storey_v = options.storey_height_m / rise;
             foot_v = glm::dot(on_wall, frame.v) + (foot_of_building.at(object.building_id) - on_wall.z) / rise;
         }
+        std::vector<std::uint32_t> polygons;
+        for (const std::uint32_t f : patch.faces) polygons.push_back(scene.faces[f].source_index);
+        std::sort(polygons.begin(), polygons.end());
+        polygons.erase(std::unique(polygons.begin(), polygons.end()), polygons.end());
         std::optional<int> storey;
         for (const auto& [place, cell] : cut_patch(scene, patch, frame, foot_v, storey_v, options.cell_m)) {
             if (cell.area < kLeastAreaM2) continue;
@@ -300,6 +304,7 @@ void add_surface_cells(ReceiverSet& set, const Scene& scene, ReceiverKind kind, 
                 receiver.building_id = object.building_id;
                 receiver.object_id = object.id;
                 receiver.surface = patch.surface;
+                receiver.polygons = polygons;
                 receiver.id = fmt::format("{}/{}", object.id, patch.surface);
                 if (kind == ReceiverKind::facade) {
                     receiver.storey = level;

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "sky/daylight.h"
 #include "sky/solar_position.h"
 #include "sky/weather_light.h"
 #include "study/packets.h"
@@ -165,6 +164,34 @@ YearLight cloudless_year(int year_number, const Site& site, double convergence_r
         }
     }
     return year;
+}
+
+Daylight daylight_of(const YearLight& year) {
+    SkyImage sun;
+    sun.width = kWidth;
+    sun.height = kHeight;
+    sun.pixels.assign(static_cast<std::size_t>(kWidth) * kHeight, Rgb(0.0f));
+    for (const SunMoment& moment : year.moments) {
+        const double zenith = std::acos(std::clamp(static_cast<double>(moment.direction.z), -1.0, 1.0));
+        const double azimuth =
+            std::atan2(static_cast<double>(moment.direction.x), static_cast<double>(moment.direction.y));
+        const int row = std::min(static_cast<int>(zenith / kPi * kHeight), sun.sky_rows() - 1);
+        const int column = static_cast<int>(std::floor(azimuth / (2.0 * kPi) * kWidth) + kWidth) % kWidth;
+        const double solid_angle =
+            2.0 * kPi / kWidth * (std::cos(row * kPi / kHeight) - std::cos((row + 1) * kPi / kHeight));
+        sun.pixels[static_cast<std::size_t>(row) * kWidth + static_cast<std::size_t>(column)] +=
+            Rgb(static_cast<float>(1e-3 * static_cast<double>(moment.beam_wh_m2) / solid_angle));
+    }
+    const double beam_kwh_m2 = year.global_kwh_m2 - year.diffuse_kwh_m2;
+    const double spread_kwh_m2 = horizontal_illuminance(sun).x;
+    auto image = std::make_shared<SkyImage>(*year.sky.image);
+    if (spread_kwh_m2 > 0.0) {
+        const auto factor = static_cast<float>(beam_kwh_m2 / spread_kwh_m2);
+        for (std::size_t i = 0; i < sun.pixels.size(); ++i) image->pixels[i] += factor * sun.pixels[i];
+    }
+    Daylight daylight{"period", ImageSky{std::move(image), year.sky.first_azimuth_rad}, {}};
+    daylight.sun.shape = SunShape::none;
+    return daylight;
 }
 
 YearSun year_sun(std::span<const Sample> samples, const Vec3d& scene_origin, const RayScene& rays,

@@ -9,6 +9,7 @@
 
 #include "base/progress.h"
 #include "base/site.h"
+#include "sky/daylight.h"
 #include "sky/image_sky.h"
 #include "sky/weather.h"
 #include "study/receivers.h"
@@ -51,6 +52,11 @@ YearLight year_light(const Weather& weather, const Site& site, double convergenc
 
 /// Without weather: every moment with the sun up counts as sunshine, and there is no energy. `year` of the sun's ways.
 YearLight cloudless_year(int year, const Site& site, double convergence_rad, const Period& period = {});
+
+/// The period's light as that of one instant without a beam, for what surfaces reflect: kWh stand for lm h, and the sun
+/// is spread over pixels of 2.5°, its energy on level ground kept. Nothing else should look at it: shadows of so wide a
+/// sun are soft.
+Daylight daylight_of(const YearLight& year);
 
 /// What samples get of the sun over a period.
 struct YearSun {

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "base/hash_rng.h"
+#include "light/polygon_irradiance.h"
 #include "vessels.h"
 
 namespace skybake {
@@ -64,17 +65,6 @@ TEST(Bowl, UnderAUniformSky) {
         const auto [position, normal] = inner_point(scene, triangle, {0, 0, 5});
         expect_within(at(scene, sources, {position, normal}, {200000, 100, 3}), direct / (1.0 - 0.3) - direct, 0.003);
     }
-}
-
-/// J. H. Lambert 1760: irradiance by an evenly bright polygon of luminance L: E = L/2 Σ θ_i (Γ_i · n).
-double polygon_irradiance(const std::vector<Vec3d>& corners, const Vec3d& point, const Vec3d& normal, double radiance) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-        const Vec3d a = glm::normalize(corners[i] - point),
-                    b = glm::normalize(corners[(i + 1) % corners.size()] - point);
-        sum += std::acos(glm::dot(a, b)) * glm::dot(glm::normalize(glm::cross(a, b)), normal);
-    }
-    return 0.5 * radiance * std::abs(sum);
 }
 
 /// A wall before a sunlit floor gets, by one reflection, what Lambert's formula gives for a floor of luminance ρE/π.

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 
+#include "box_city.h"
 #include "json_schema.h"
 #include "run_program.h"
 
@@ -13,40 +15,6 @@ namespace {
 
 using testing::HasSubstr;
 using testing::Not;
-
-constexpr double kX = -67000.0, kY = 215000.0;  // EPSG:31256, Graz's longitude 15.4, latitude 47.07
-
-/// A city of boxes in EPSG:31256, on ground of ±60 m or on none.
-nlohmann::json box_city(const std::vector<std::pair<std::string, std::array<double, 6>>>& boxes, bool has_ground) {
-    nlohmann::json objects = nlohmann::json::object(), vertices = nlohmann::json::array();
-    const auto vertex = [&](double x, double y, double z) {
-        vertices.push_back({std::llround(x * 1000), std::llround(y * 1000), std::llround(z * 1000)});
-    };
-    if (has_ground) {
-        vertex(-60, -60, 0), vertex(60, -60, 0), vertex(60, 60, 0), vertex(-60, 60, 0);
-        objects["ground"] = {
-            {"type", "TINRelief"},
-            {"geometry", {{{"type", "CompositeSurface"}, {"lod", "1"}, {"boundaries", {{{0, 1, 2}}, {{0, 2, 3}}}}}}}};
-    }
-    for (const auto& [id, b] : boxes) {
-        const int v = static_cast<int>(vertices.size());
-        for (const double z : {b[2], b[5]})
-            vertex(b[0], b[1], z), vertex(b[3], b[1], z), vertex(b[3], b[4], z), vertex(b[0], b[4], z);
-        nlohmann::json faces = nlohmann::json::array();
-        for (const std::array<int, 4>& f : {std::array{3, 2, 1, 0}, std::array{4, 5, 6, 7}, std::array{0, 1, 5, 4},
-                                            std::array{1, 2, 6, 5}, std::array{2, 3, 7, 6}, std::array{3, 0, 4, 7}})
-            faces.push_back({{v + f[0], v + f[1], v + f[2], v + f[3]}});
-        objects[id] = {
-            {"type", "Building"},
-            {"geometry", {{{"type", "Solid"}, {"lod", "1"}, {"boundaries", nlohmann::json::array({faces})}}}}};
-    }
-    return {{"type", "CityJSON"},
-            {"version", "2.0"},
-            {"metadata", {{"referenceSystem", "https://www.opengis.net/def/crs/EPSG/0/31256"}}},
-            {"transform", {{"scale", {0.001, 0.001, 0.001}}, {"translate", {kX, kY, 0.0}}}},
-            {"CityObjects", objects},
-            {"vertices", vertices}};
-}
 
 class StudyVerb : public testing::Test {
   protected:
@@ -146,6 +114,14 @@ TEST_F(StudyVerb, ReportIsOneSafeFile) {
     const std::string german = text_of(place / "de" / "report.html");
     EXPECT_THAT(german, HasSubstr("<html lang=\"de\">"));
     EXPECT_THAT(german, HasSubstr("mindestens 1,5 h"));
+    // The rule's own texts, too.
+    EXPECT_THAT(german, HasSubstr("<h1>EN 17037: Besonnung</h1>"));
+    EXPECT_THAT(german, HasSubstr("Die Sonne zählt ab dieser geometrischen Höhe"));
+    for (const char* english : {"exposure to sunlight", "at least", "The text of the standard"})
+        EXPECT_THAT(german, Not(HasSubstr(english)));
+    // Levels that are not required are no failures.
+    EXPECT_THAT(german, HasSubstr("verdict reported"));
+    EXPECT_THAT(german, HasSubstr("erreicht (nicht verbindlich)"));
 }
 
 TEST_F(StudyVerb, VerifiesItsReport) {
@@ -187,6 +163,46 @@ TEST_F(StudyVerb, VerifiesItsReport) {
     EXPECT_THAT(refusal({"--verify", report}), HasSubstr("is damaged"));
 }
 
+TEST_F(StudyVerb, VerifiesItsSummaries) {
+    json_of({place.str("city.json"), "--rule", "bre209-vsc", "--receivers", "facades", "--add", place.str("tower.json"),
+             "-o", place.str("out")});
+    const auto verified = [&](int exit_code) {
+        Running program(place, {"study", "--verify", place.str("out/report.json"), "--json"});
+        EXPECT_EQ(program.exit_code(), exit_code) << program.err();
+        return nlohmann::json::parse(program.out());
+    };
+    const nlohmann::json good = verified(0);
+    const std::string groups = text_of(place / "out" / "groups.csv"), cells = text_of(place / "out" / "cells.csv");
+    EXPECT_EQ(good["groups"], std::count(groups.begin(), groups.end(), '\n') - 1);
+    EXPECT_EQ(good["verdicts"], std::count(cells.begin(), cells.end(), '\n') - 1);
+    // Someone betters a summary, and the hash beside it.
+    const std::string report = text_of(place / "out" / "report.json");
+    const auto tampered = [&](const std::string& text, const std::string& from, const std::string& to) {
+        std::string other = text;
+        const std::size_t at = other.find(from);
+        EXPECT_NE(at, std::string::npos) << from;
+        return at == std::string::npos ? other : other.replace(at, from.size(), to);
+    };
+    const std::size_t kind = groups.find("\nkind,");
+    const std::string row = groups.substr(kind, groups.find('\n', kind + 1) - kind);
+    const std::string mean = row.substr(row.find(",fail,") + 6, 4);
+    std::ofstream(place / "out" / "groups.csv") << tampered(groups, ",fail," + mean, ",fail,9" + mean);
+    EXPECT_THAT(verified(1)["differences"].dump(), HasSubstr("in groups.csv, and"));
+    std::ofstream(place / "out" / "groups.csv") << groups;
+    const nlohmann::json told = nlohmann::json::parse(report);
+    nlohmann::json bettered = told;
+    bettered["buildings"][0]["verdict"] = told["buildings"][0]["verdict"] == "pass" ? "fail" : "pass";
+    std::ofstream(place / "out" / "report.json") << bettered;
+    EXPECT_THAT(verified(1)["differences"].dump(), HasSubstr("building house: the report says"));
+    // The same study makes the same report, to the last byte of each file.
+    json_of({place.str("city.json"), "--rule", "bre209-vsc", "--receivers", "facades", "--add", place.str("tower.json"),
+             "-o", place.str("again")});
+    for (const char* file : {"report.html", "cells.csv", "groups.csv", "city.city.json"}) {
+        EXPECT_EQ(text_of(place / "again" / file), text_of(place / "out" / file)) << file;
+    }
+    EXPECT_EQ(text_of(place / "again" / "report.json"), report);
+}
+
 TEST_F(StudyVerb, ReportsKeepTheirSchema) {
     const nlohmann::json schema = nlohmann::json::parse(text_of(SKYBAKE_SCHEMA_FOLDER "/study.schema.json"));
     json_of({place.str("city.json"), "--rule", "nyc-ceqr", "--add", place.str("tower.json"), "--polygons",
@@ -200,6 +216,47 @@ TEST_F(StudyVerb, ReportsKeepTheirSchema) {
     }
     EXPECT_TRUE(std::filesystem::exists(place / "a" / "shadows.gpkg"));
     EXPECT_FALSE(std::filesystem::exists(place / "b" / "shadows.gpkg"));  // the rule has no days
+}
+
+TEST_F(StudyVerb, CityHasTheResultsAsAttributes) {
+    nlohmann::json city = nlohmann::json::parse(text_of(place / "city.json"));
+    city["CityObjects"]["house"]["attributes"] = {{"name", "Alte Mühle"}};
+    std::ofstream(place / "city.json") << city;
+    const nlohmann::json report =
+        json_of({place.str("city.json"), "--rule", "bre209-vsc", "--receivers", "facades,roofs", "--add",
+                 place.str("tower.json"), "--metrics", "sky_view_factor", "-o", place.str("out")});
+    const std::string written = place.str("out/city.city.json");
+    // Our own reader takes it without a finding, in the same reference system.
+    Running check(place, {"check", written, "--json", "--strict"});
+    EXPECT_EQ(check.exit_code(), 0) << check.err();
+    const nlohmann::json checked = nlohmann::json::parse(check.out());
+    EXPECT_EQ(checked["findings"], nlohmann::json::array());
+    EXPECT_EQ(checked["buildings"], 2);
+    EXPECT_THAT(checked["crs"].dump(), HasSubstr("31256"));
+    const nlohmann::json result = nlohmann::json::parse(text_of(written));
+    const nlohmann::json& house = result["CityObjects"]["house"];
+    EXPECT_EQ(house["attributes"]["name"], "Alte Mühle");
+    EXPECT_EQ(house["attributes"]["skybake_rule"], "bre209-vsc 1.0.0");
+    EXPECT_EQ(house["attributes"]["skybake_verdict"], report["buildings"][0]["verdict"]);
+    EXPECT_FALSE(result["CityObjects"]["tower"].contains("attributes"));  // the plan's own surfaces are no receivers
+    // Four walls and a roof, each with its own numbers; the floor has none. In groups.csv they stand as facades.
+    const nlohmann::json& semantics = house["geometry"][0]["semantics"];
+    std::map<std::string, int> types;
+    const std::string groups = text_of(place / "out" / "groups.csv");
+    for (const nlohmann::json& surface : semantics["surfaces"]) {
+        ++types[surface["type"].get<std::string>()];
+        if (surface["type"] == "GroundSurface") {
+            EXPECT_EQ(surface.size(), 1u);
+            continue;
+        }
+        const double view = surface.at("skybake_sky_view_factor").get<double>();
+        EXPECT_NEAR(view, surface["type"] == "RoofSurface" ? 0.95 : 0.4, 0.12);
+        EXPECT_THAT(groups, HasSubstr("," + surface.at("skybake_sky_view_factor").dump() + ","));
+    }
+    EXPECT_EQ(types["WallSurface"], 4);
+    EXPECT_EQ(types["RoofSurface"], 1);
+    json_of({place.str("city.json"), "-o", place.str("none"), "--no-cells"});
+    EXPECT_FALSE(std::filesystem::exists(place / "none" / "city.city.json"));
 }
 
 TEST_F(StudyVerb, MonthsAreAPeriod) {

@@ -126,9 +126,10 @@ TEST(ShippedRules, JapanCountsShadowByTrueSolarTime) {
     }
 }
 
-/// Hourly from 8 to 17 o'clock: the middle is 12:30. Hidden for 2.9 h about it: the instants 12 and 13 (and 14 no
-/// more), so 1 h; for 3.1 h: 11, 12, 13, 14, so 3 h. For 2 and a half hours no sampled value exists: the rule's limit
-/// lies between 2 and 3 h, and no hourly scene is at it.
+/// Hourly from 8 to 17 o'clock, and a shadow lasts from its first to its last shaded instant: whole hours only. The
+/// limit lies between 2 h, which is the most that passes, and 3 h. So it hangs on minutes which instants a shadow of
+/// three hours covers: from 10:59 to 13:59 three of them (2 h), from 10:59 to 14:01 four (3 h), from 11:01 to 14:01
+/// three.
 TEST(ShippedRules, ZurichCountsHourlyInstants) {
     Rule rule = rule_named("zurich-3h-shadow");
     rule.days.resize(1);
@@ -138,10 +139,18 @@ TEST(ShippedRules, ZurichCountsHourlyInstants) {
     const Sample up = sample_at({0, 0, 0}, {0, 0, 1});
     // Sunset on 3 November is at 17:06 zone time and sunrise at 7:13: the whole window is day.
     ASSERT_NEAR(day.hours(), 9.0, 1e-3);
-    EXPECT_EQ(verdict(rule, 0, hidden_for(day, 2.9), up, settings), Verdict::pass);
-    EXPECT_EQ(verdict(rule, 0, hidden_for(day, 3.1), up, settings), Verdict::fail);
-    rule.criteria[0].at_most = 3.0;
-    EXPECT_EQ(verdict(rule, 0, hidden_for(day, 3.1), up, settings), Verdict::borderline);
+    const auto verdict_between = [&](double from_h, double to_h) {
+        QuadScene screen;
+        add_screen(screen, azimuth_at(day, 3600.0 * (from_h - 8.0)), azimuth_at(day, 3600.0 * (to_h - 8.0)));
+        return verdict(rule, 0, screen, up, settings);
+    };
+    constexpr double kMinute = 1.0 / 60.0;
+    EXPECT_EQ(verdict_between(11.0 - kMinute, 14.0 - kMinute), Verdict::pass);
+    EXPECT_EQ(verdict_between(11.0 - kMinute, 14.0 + kMinute), Verdict::fail);
+    EXPECT_EQ(verdict_between(11.0 + kMinute, 14.0 + kMinute), Verdict::pass);
+    EXPECT_EQ(verdict_between(11.0 - kMinute, 13.0 + kMinute), Verdict::pass);
+    rule.criteria[0].at_most = 3.0;  // at a limit that a whole number of hours can meet
+    EXPECT_EQ(verdict_between(11.0 - kMinute, 14.0 + kMinute), Verdict::borderline);
 }
 
 TEST(ShippedRules, CeqrFindsNewShadow) {
@@ -265,16 +274,17 @@ TEST(ShippedRules, ApshAtItsThresholds) {
     }
 }
 
-/// Ten equal cells of one polygon, of which so many pass (and passed before).
-Verdict group_verdict(const Rule& rule, int passing, std::optional<int> passing_before) {
+/// Twenty equal cells of one polygon, of which so many pass (and passed before) the criterion.
+Verdict group_verdict(const Rule& rule, int passing, std::optional<int> passing_before, std::size_t criterion = 0) {
+    constexpr int kCells = 20;
     Study study;
     Receiver receiver;
     receiver.id = "a";
     receiver.kind = ReceiverKind::polygon;
-    receiver.sample_end = 10;
+    receiver.sample_end = kCells;
     study.receivers.receivers.push_back(receiver);
     CriterionResult result;
-    for (int i = 0; i < 10; ++i) {
+    for (int i = 0; i < kCells; ++i) {
         study.receivers.samples.push_back(sample_at({i, 0, 0}, {0, 0, 1}));
         study.receivers.samples.back().area_m2 = 2.0f;
         result.margin.push_back(0.0f);
@@ -282,21 +292,27 @@ Verdict group_verdict(const Rule& rule, int passing, std::optional<int> passing_
         if (passing_before) result.verdict_before.push_back(i < *passing_before ? Verdict::pass : Verdict::fail);
     }
     study.criteria.assign(rule.criteria.size(), result);
-    return rolled_up(rule, study, Level::receiver).at(0).criteria[0].verdict;
+    return rolled_up(rule, study, Level::receiver).at(0).criteria[criterion].verdict;
 }
 
 TEST(ShippedRules, SharesOfAreaAtAboveAndBelow) {
     const Rule apartments = rule_named("nsw-adg");
-    EXPECT_EQ(group_verdict(apartments, 7, {}), Verdict::pass);
-    EXPECT_EQ(group_verdict(apartments, 8, {}), Verdict::pass);
-    EXPECT_EQ(group_verdict(apartments, 6, {}), Verdict::fail);
+    // 70 % of twenty are 14.
+    EXPECT_EQ(group_verdict(apartments, 14, {}), Verdict::pass);
+    EXPECT_EQ(group_verdict(apartments, 15, {}), Verdict::pass);
+    EXPECT_EQ(group_verdict(apartments, 13, {}), Verdict::fail);
+    // No more than 15 % without sun: 17 of twenty have some.
+    ASSERT_EQ(apartments.criteria[1].id, "some-sun");
+    EXPECT_EQ(group_verdict(apartments, 17, {}, 1), Verdict::pass);
+    EXPECT_EQ(group_verdict(apartments, 18, {}, 1), Verdict::pass);
+    EXPECT_EQ(group_verdict(apartments, 16, {}, 1), Verdict::fail);
     const Rule amenity = rule_named("bre209-amenity");
-    EXPECT_EQ(group_verdict(amenity, 5, {}), Verdict::pass);
-    EXPECT_EQ(group_verdict(amenity, 4, {}), Verdict::fail);
-    // 0.8 of the area that had it: 4 of 5 are enough, 3 of 5 are not; and half is enough, whatever was before.
-    EXPECT_EQ(group_verdict(amenity, 4, 5), Verdict::pass);
-    EXPECT_EQ(group_verdict(amenity, 3, 5), Verdict::fail);
-    EXPECT_EQ(group_verdict(amenity, 5, 10), Verdict::pass);
+    EXPECT_EQ(group_verdict(amenity, 10, {}), Verdict::pass);
+    EXPECT_EQ(group_verdict(amenity, 9, {}), Verdict::fail);
+    // 0.8 of the area that had it: 8 of 10 are enough, 7 of 10 are not; and half is enough, whatever was before.
+    EXPECT_EQ(group_verdict(amenity, 8, 10), Verdict::pass);
+    EXPECT_EQ(group_verdict(amenity, 7, 10), Verdict::fail);
+    EXPECT_EQ(group_verdict(amenity, 10, 20), Verdict::pass);
 }
 
 TEST(ShippedRules, IrradiationHasNoThreshold) {
@@ -312,6 +328,8 @@ TEST(ShippedRules, AllReadAndSayWhatToCheck) {
         EXPECT_EQ(rule.id, name);
         EXPECT_FALSE(rule.to_check.empty()) << name;
         EXPECT_FALSE(rule.source.empty()) << name;
+        ASSERT_TRUE(rule.german) << name;  // complete, or it would not have been read
+        EXPECT_NE(rule.german->title, "") << name;
     }
     EXPECT_TRUE(rule_named("shadow-study").criteria.empty());
     EXPECT_THROW(rule_file_of("en17037", kRules), InputError);
@@ -332,6 +350,9 @@ TEST(RuleFiles, FaultsAreNamedWithTheirPlace) {
         R"({"skybake_rule": 1, "id": "a", "version": "1", "title": "t", "source": "s", "source_date": "d", )";
     const std::string kinds = R"("receivers": {"kinds": ["facade"]}, )";
     using testing::HasSubstr;
+    EXPECT_THAT(message_of(head + R"("to_check": ["a", "b"], "de": {"title": "t", "to_check": ["a"]}, )" + kinds +
+                           R"("metrics": ["sky_view_factor"]})"),
+                HasSubstr("#/de 'to_check' has 1 texts, and the rule 2"));
     EXPECT_THAT(message_of("{"), HasSubstr("is no JSON"));
     EXPECT_THAT(message_of(R"({"skybake_rule": 2})"), HasSubstr("another format"));
     EXPECT_THAT(message_of(head + kinds + R"("metrics": ["sun_hour"]})"),

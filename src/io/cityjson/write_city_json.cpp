@@ -238,8 +238,10 @@ std::vector<Part> parts_of(const Geometry& geometry) {
 /// of its type.
 class GeometryWriter {
   public:
-    GeometryWriter(Sink& sink, const CityObject& object, const Vec3d& origin, Tables& tables)
-        : sink_(sink), object_(object), geometry_(object.geometry), origin_(origin), tables_(tables) {}
+    using Notes = SurfaceNotes::mapped_type;
+    /// `notes` of the object's surfaces, or null.
+    GeometryWriter(Sink& sink, const CityObject& object, const Vec3d& origin, Tables& tables, const Notes* notes)
+        : sink_(sink), object_(object), geometry_(object.geometry), origin_(origin), tables_(tables), notes_(notes) {}
 
     void write(const Part& part) {
         const bool is_terrain = object_.type == ObjectType::terrain;
@@ -352,26 +354,37 @@ class GeometryWriter {
             s, [&](std::uint32_t c) { sink_.number(tables_.uvs.number_of(geometry_.corner_uv[c])); },
             std::to_string(tables_.textures.of(s.texture->value)));
     }
+    /// The surface's semantic object; empty when it has none.
+    std::string semantic_object(Semantics semantics, const Surface& s) const {
+        const SurfaceNote* note = nullptr;
+        if (notes_) {
+            if (const auto found = notes_->find(s.source_index); found != notes_->end()) note = &found->second;
+        }
+        const char* name = semantic_name(semantics, s.type);
+        if (!name && note) name = semantic_name(semantics, note->type);
+        if (!name) return "";
+        return note ? fmt::format(R"({{"type":"{}",{}}})", name, note->members_json)
+                    : fmt::format(R"({{"type":"{}"}})", name);
+    }
     void write_semantics(const Part& part) {
         const Semantics semantics = semantics_of(object_.type);
-        std::vector<const char*> names;
-        const auto index_of = [&](const char* name) {
-            const auto found = std::find(names.begin(), names.end(), name);
-            if (found == names.end()) names.push_back(name);
-            return static_cast<std::size_t>((found == names.end() ? names.end() - 1 : found) - names.begin());
-        };
+        std::vector<std::string> objects;
+        std::unordered_map<std::string, std::size_t> index_of;
         each(part, [&](const Surface& s) {
-            if (const char* name = semantic_name(semantics, s.type)) index_of(name);
+            std::string object = semantic_object(semantics, s);
+            if (object.empty() || !index_of.try_emplace(object, objects.size()).second) return;
+            objects.push_back(std::move(object));
         });
-        if (names.empty()) return;
+        if (objects.empty()) return;
         sink_.text(R"(,"semantics":{"surfaces":)");
-        list(names, [&](const char* name) { sink_.print(R"({{"type":"{}"}})", name); });
+        list(objects, [&](const std::string& object) { sink_.text(object); });
         sink_.text(R"(,"values":)");
         nest(part, [&](const Surface& s) {
-            if (const char* name = semantic_name(semantics, s.type)) {
-                sink_.number(static_cast<std::int64_t>(index_of(name)));
-            } else {
+            const std::string object = semantic_object(semantics, s);
+            if (object.empty()) {
                 sink_.text("null");
+            } else {
+                sink_.number(static_cast<std::int64_t>(index_of.at(object)));
             }
         });
         sink_.text("}");
@@ -382,12 +395,13 @@ class GeometryWriter {
     const Geometry& geometry_;
     const Vec3d& origin_;
     Tables& tables_;
+    const Notes* notes_;
 };
 
 using Children = std::unordered_map<std::string, std::vector<std::size_t>>;
 
 void write_object(Sink& sink, const CityModel& city, std::size_t index, const Children& children, const Vec3d& origin,
-                  Tables& tables) {
+                  Tables& tables, const SurfaceNotes& notes) {
     const CityObject& object = city.objects[index];
     sink.print(R"({}:{{"type":{})", quoted(object.id), quoted(type_name_of(object)));
     if (!object.parent_id.empty()) sink.print(R"(,"parents":[{}])", quoted(object.parent_id));
@@ -407,7 +421,8 @@ void write_object(Sink& sink, const CityModel& city, std::size_t index, const Ch
     tables.uvs.in_object.clear();
     if (!object.geometry.is_empty()) {
         sink.text(R"(,"geometry":[)");
-        GeometryWriter writer(sink, object, origin, tables);
+        const auto found = notes.find(object.id);
+        GeometryWriter writer(sink, object, origin, tables, found == notes.end() ? nullptr : &found->second);
         bool is_first = true;
         for (const Part& part : parts_of(object.geometry)) {
             if (!is_first) sink.text(",");
@@ -514,7 +529,7 @@ void write_head(Sink& sink, const CityModel& city, const Vec3d& origin, const Bo
 
 }  // namespace
 
-void write_city_json(const CityModel& city, const std::filesystem::path& path) {
+void write_city_json(const CityModel& city, const std::filesystem::path& path, const SurfaceNotes& notes) {
     const Box3d extent = extent_of(city);
     const Vec3d lowest = extent.is_empty() ? Vec3d(0.0) : extent.lo;
     const Vec3d origin{std::floor(lowest.x), std::floor(lowest.y), std::floor(lowest.z)};
@@ -529,7 +544,7 @@ void write_city_json(const CityModel& city, const std::filesystem::path& path) {
         Tables tables;
         for (std::size_t i = 0; i < city.objects.size(); ++i) {
             sink.text(i > 0 ? ",\n" : "\n");
-            write_object(sink, city, i, children, origin, tables);
+            write_object(sink, city, i, children, origin, tables, notes);
         }
         sink.text("}");
         write_appearance(sink, city, tables);
@@ -550,7 +565,7 @@ void write_city_json(const CityModel& city, const std::filesystem::path& path) {
         below.assign(1, top);
         for (std::size_t k = 0; k < below.size(); ++k) {
             if (k > 0) sink.text(",");
-            write_object(sink, city, below[k], children, origin, tables);
+            write_object(sink, city, below[k], children, origin, tables, notes);
             if (const auto found = children.find(city.objects[below[k]].id); found != children.end()) {
                 below.insert(below.end(), found->second.begin(), found->second.end());
             }

@@ -12,6 +12,7 @@ inline const char* const kManifest = "manifest.json";
 inline const char* const kCity = "city.glb";
 inline const char* const kObjects = "objects.json";
 inline const char* const kLightFolder = "light";
+inline const char* const kLayerFolder = "layers";
 
 inline std::string base(std::size_t page) {
     return fmt::format("light/p{}_base.exr", page);
@@ -46,6 +47,10 @@ inline std::string scales(std::size_t instant) {
 }
 inline std::string panorama(std::size_t instant) {
     return fmt::format("light/i{}_sky.bin", instant);
+}
+/// A study's layer: "png" or "exr".
+inline std::string layer(const std::string& id, std::size_t page, const char* extension) {
+    return fmt::format("{}/{}_{}.{}", kLayerFolder, id, page, extension);
 }
 inline std::string air(std::size_t instant) {
     return fmt::format("light/i{}_air.bin", instant);

@@ -78,6 +78,8 @@ StoredBake from_json(const std::filesystem::path& folder, const nlohmann::json& 
     bake.folder = folder;
     bake.texel_m = json.at("texel_m").get<double>();
     bake.charts = json.at("charts").get<std::uint64_t>();
+    for (const nlohmann::json& input : json.at("inputs"))
+        bake.inputs.push_back({input.at("file").get<std::string>(), input.at("sha256").get<std::string>()});
     for (const nlohmann::json& page : json.at("pages")) {
         const int width = page.at("width").get<int>();
         const int height = page.at("height").get<int>();

@@ -46,12 +46,19 @@ struct StoredInstant {
     float exposure_hint = 1.0f;  // m² kcd⁻¹, positive
 };
 
+/// A file that the bake was made from.
+struct StoredInput {
+    std::string file;  // name without folder
+    std::string sha256;
+};
+
 /// What the manifest says of the pages; the pages themselves are read one by one, since a city's may not fit into
 /// memory.
 struct StoredBake {
     std::filesystem::path folder;
     double texel_m = 0.0;
     std::uint64_t charts = 0;
+    std::vector<StoredInput> inputs;
     std::vector<StoredPage> pages;
     std::vector<StoredInstant> instants;
     std::vector<BakeView> views;

@@ -160,11 +160,15 @@ void clear_old_bake(const std::filesystem::path& folder) {
         "indirect\\.png|_leaks\\.png)|scales\\.bin|"
         "indirect_scales\\.bin|sky\\.bin|air\\.bin))(\\."
         "part)?");
+    static const std::regex layers("[a-z0-9_.-]+_[0-9]+\\.(png|exr)(\\.part)?");
     std::vector<std::filesystem::path> old;
-    for (const std::filesystem::directory_entry& entry :
-         std::filesystem::directory_iterator(folder / names::kLightFolder)) {
-        if (std::regex_match(entry.path().filename().string(), ours)) old.push_back(entry.path());
-    }
+    const auto find_old = [&](const std::filesystem::path& below, const std::regex& names) {
+        for (const auto& entry : std::filesystem::directory_iterator(below, error)) {
+            if (std::regex_match(entry.path().filename().string(), names)) old.push_back(entry.path());
+        }
+    };
+    find_old(folder / names::kLightFolder, ours);
+    find_old(folder / names::kLayerFolder, layers);
     for (const std::filesystem::path& path : old) remove(path);
 }
 

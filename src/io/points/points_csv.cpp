@@ -11,85 +11,13 @@
 #include "base/check.h"
 #include "base/error.h"
 #include "io/file/csv_field.h"
+#include "io/file/csv_reader.h"
 #include "io/file/replace_file.h"
 
 namespace skybake::io {
 namespace {
 
 constexpr std::array<std::string_view, 7> kColumns = {"id", "x", "y", "z", "nx", "ny", "nz"};
-
-std::string_view trimmed(std::string_view text) {
-    const std::size_t first = text.find_first_not_of(" \t\r");
-    if (first == std::string_view::npos) return {};
-    return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
-/// Walks through the text record by record; a quoted field may hold commas, doubled quotes and line ends (RFC 4180).
-class CsvReader {
-  public:
-    CsvReader(std::string_view text, const std::string& name) : text_(text), name_(name) {
-        if (text_.substr(0, 3) == "\xef\xbb\xbf") at_ = 3;  // the byte order mark that spreadsheets write
-    }
-
-    /// False at the end. Lines that are empty are passed over.
-    bool next(std::vector<std::string>& fields) {
-        while (at_ < text_.size()) {
-            record_line_ = line_;
-            fields.clear();
-            read_record(fields);
-            if (fields.size() > 1 || !fields[0].empty()) return true;
-        }
-        return false;
-    }
-
-    [[noreturn]] void fail(const std::string& what) const {
-        throw InputError(fmt::format("{}: line {}: {}", name_, record_line_, what));
-    }
-
-  private:
-    void read_record(std::vector<std::string>& fields) {
-        for (;;) {
-            fields.push_back(read_field());
-            if (at_ >= text_.size()) return;
-            const char end = text_[at_++];
-            if (end == ',') continue;
-            ++line_;
-            return;
-        }
-    }
-
-    /// Up to a comma or the line's end, which is left standing.
-    std::string read_field() {
-        const std::size_t start = text_.find_first_not_of(" \t", at_);
-        if (start == std::string_view::npos || text_[start] != '"') {
-            const std::size_t end = std::min(text_.find_first_of(",\n", at_), text_.size());
-            const std::string_view field = trimmed(text_.substr(at_, end - at_));
-            at_ = end;
-            return std::string(field);
-        }
-        std::string field;
-        for (at_ = start + 1; at_ < text_.size(); ++at_) {
-            if (text_[at_] == '"') {
-                if (at_ + 1 >= text_.size() || text_[at_ + 1] != '"') break;
-                ++at_;
-            }
-            if (text_[at_] == '\n') ++line_;
-            field += text_[at_];
-        }
-        if (at_ >= text_.size()) fail("a quoted field has no closing quote.");
-        const std::size_t end = std::min(text_.find_first_of(",\n", at_), text_.size());
-        if (!trimmed(text_.substr(at_ + 1, end - at_ - 1)).empty())
-            fail("text stands behind the closing quote of a field.");
-        at_ = end;
-        return field;
-    }
-
-    std::string_view text_;
-    const std::string& name_;
-    std::size_t at_ = 0;
-    std::uint64_t line_ = 1;
-    std::uint64_t record_line_ = 1;
-};
 
 double number(const CsvReader& csv, const std::vector<std::string>& fields, std::size_t column) {
     const std::string& field = fields[column];

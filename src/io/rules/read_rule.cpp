@@ -177,6 +177,20 @@ Criterion criterion_of(const Node& node) {
     return criterion;
 }
 
+/// The German texts, which must stand beside all the English ones.
+RuleTexts german_texts(const Node& de, const Rule& rule) {
+    de.allow({"title", "confirmed", "to_check", "criteria"});
+    RuleTexts texts{de.text("title"), de.texts("confirmed"), de.texts("to_check"), de.texts("criteria")};
+    const auto check = [&](const char* key, std::size_t found, std::size_t wanted) {
+        if (found != wanted)
+            de.fail(fmt::format("'{}' has {} texts, and the rule {}: one for each.", key, found, wanted));
+    };
+    check("confirmed", texts.confirmed.size(), rule.confirmed.size());
+    check("to_check", texts.to_check.size(), rule.to_check.size());
+    check("criteria", texts.criteria.size(), rule.criteria.size());
+    return texts;
+}
+
 }  // namespace
 
 Rule read_rule(const std::filesystem::path& path) {
@@ -189,7 +203,7 @@ Rule read_rule(const std::filesystem::path& path) {
     }
     const Node root(document, path.string(), "#");
     root.allow({"$schema", "skybake_rule", "id", "version", "title", "source", "source_date", "confirmed", "to_check",
-                "receivers", "sun", "needs_before", "needs_weather", "swivel_deg", "metrics", "criteria"});
+                "de", "receivers", "sun", "needs_before", "needs_weather", "swivel_deg", "metrics", "criteria"});
     if (root.number("skybake_rule", 0, 1e6) != kRuleFormat)
         root.fail(fmt::format("is of another format; this version reads \"skybake_rule\": {}.", kRuleFormat));
     Rule rule;
@@ -216,6 +230,7 @@ Rule read_rule(const std::filesystem::path& path) {
         for (const json& entry : root.at("criteria"))
             rule.criteria.push_back(criterion_of(root.item(entry, "criteria", i++)));
     }
+    if (root.has("de")) rule.german = german_texts(root.child("de"), rule);
     const std::vector<Metric> metrics = rule.all_metrics();
     if (metrics.empty()) root.fail("has neither 'criteria' nor 'metrics': nothing to compute.");
     if (rule.days.empty() && std::any_of(metrics.begin(), metrics.end(), is_of_days))

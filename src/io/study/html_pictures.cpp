@@ -20,16 +20,6 @@ void figure(Html& html, const std::string& svg, const std::string& caption) {
     html.open("figure").markup(svg).element("figcaption", caption).close("figure");
 }
 
-std::vector<double> thresholds_of(const Rule& rule, Metric metric) {
-    std::vector<double> thresholds;
-    for (const Criterion& c : rule.criteria) {
-        if (c.metric != metric) continue;
-        if (c.at_least) thresholds.push_back(*c.at_least);
-        if (c.at_most) thresholds.push_back(*c.at_most);
-    }
-    return thresholds;
-}
-
 std::string stacked_note(const StudyReport& report, bool shows_worst_low, const Words& words) {
     const std::vector<Receiver>& receivers = report.study.receivers.receivers;
     const bool has_facades = std::any_of(receivers.begin(), receivers.end(),
@@ -46,7 +36,7 @@ void add_value_map(Html& html, const StudyReport& report, const Words& words, co
                    double lettering) {
     const Column& column = report.study.columns[c];
     const auto [low, high] = std::minmax_element(column.values.begin(), column.values.end());
-    const bool is_low = prefers_more(column.metric);
+    const bool is_low = traits_of(column.metric).prefers_more;
     const StudyMap map{
         &ground,
         &report.study.receivers,
@@ -54,7 +44,7 @@ void add_value_map(Html& html, const StudyReport& report, const Words& words, co
         stepped_scale(static_cast<double>(*low), static_cast<double>(*high), thresholds_of(report.rule, column.metric)),
         is_low,
         words.unit(column.metric),
-        decimals_of(column.metric),
+        traits_of(column.metric).decimals,
         report.facts.settings.convergence_rad,
         lettering};
     figure(html, study_map_svg(map, words),
@@ -73,14 +63,14 @@ void add_difference_map(Html& html, const StudyReport& report, const Words& word
         change[i] = after.values[i] - before.values[i];
         most = std::max(most, static_cast<double>(std::abs(change[i])));
     }
-    if (most < least_change_of(after.metric)) return;
+    if (most < traits_of(after.metric).least_change) return;
     const StudyMap map{&ground,
                        &report.study.receivers,
                        &change,
-                       difference_scale(most, least_change_of(after.metric)),
-                       prefers_more(after.metric),
+                       difference_scale(most, traits_of(after.metric).least_change),
+                       traits_of(after.metric).prefers_more,
                        words.unit(after.metric),
-                       decimals_of(after.metric),
+                       traits_of(after.metric).decimals,
                        report.facts.settings.convergence_rad,
                        lettering};
     figure(html, study_map_svg(map, words),

@@ -19,7 +19,7 @@ void add_values(Html& html, const StudyReport& report, const Words& words) {
         if (group.level != Level::kind) continue;
         for (std::size_t c = 0; c < report.study.columns.size(); ++c) {
             const Column& column = report.study.columns[c];
-            const int decimals = decimals_of(column.metric);
+            const int decimals = traits_of(column.metric).decimals;
             rows.push_back({words.kind(group.kind),
                             {words.column(report.study, column), "words"},
                             words.number(group.columns[c].mean, decimals),
@@ -80,7 +80,7 @@ void add_judged(Html& html, const StudyReport& report, const Words& words) {
                                         {words.percent(result.area_fail), "number"}};
             if (report.facts.has_before)
                 row.push_back({result.area_pass_before ? words.percent(*result.area_pass_before) : "–", "number"});
-            row.push_back(words.change(result.least_margin, decimals_of(criterion.metric)));
+            row.push_back(words.change(result.least_margin, traits_of(criterion.metric).decimals));
             row.push_back({words.verdict(result.verdict), name_of(result.verdict)});
             rows.push_back(std::move(row));
         }
@@ -117,7 +117,7 @@ void add_change_table(Html& html, const StudyReport& report, const Words& words,
         if (rows.size() == kMostRows) break;
         const Column& column = report.study.columns[change.after];
         const GroupColumn &after = change.group->columns[change.after], &before = change.group->columns[change.before];
-        const int decimals = decimals_of(column.metric);
+        const int decimals = traits_of(column.metric).decimals;
         const double share = before.mean > 0.0 ? after.mean / before.mean : std::nan("");
         rows.push_back({change.group->id,
                         {words.column(report.study, column), "words"},
@@ -143,8 +143,8 @@ void add_changes(Html& html, const StudyReport& report, const Words& words) {
         const Metric metric = report.study.columns[c].metric;
         for (const Group* group : told_groups(report)) {
             const double change = group->columns[c].mean - group->columns[*former].mean;
-            if (std::abs(change) < least_change_of(metric)) continue;
-            const double good = prefers_more(metric) ? change : -change;
+            if (std::abs(change) < traits_of(metric).least_change) continue;
+            const double good = traits_of(metric).prefers_more ? change : -change;
             (good < 0.0 ? worse : better).push_back({group, c, *former, good});
         }
     }
@@ -230,15 +230,6 @@ std::vector<std::size_t> leading_columns(const Rule& rule, const Study& study) {
         }
     }
     return leading;
-}
-
-std::optional<std::size_t> former_column(const Study& study, std::size_t column) {
-    for (std::size_t c = 0; c < study.columns.size(); ++c) {
-        if (study.columns[c].is_before && study.columns[c].metric == study.columns[column].metric &&
-            study.columns[c].day == study.columns[column].day)
-            return c;
-    }
-    return std::nullopt;
 }
 
 void add_results(Html& html, const StudyReport& report, const Words& words) {

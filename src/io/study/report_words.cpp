@@ -53,32 +53,35 @@ std::string Words::metric(Metric metric) const {
             return w("probable sunlight of the period", "wahrscheinliche Besonnung des Zeitraums");
         case Metric::winter_sunshine_pct:
             return w("probable sunlight in winter", "wahrscheinliche Besonnung im Winter");
+        case Metric::beam_kwh_m2:
+            return w("irradiation by the sun's beam", "Einstrahlung, direkt");
+        case Metric::sky_kwh_m2:
+            return w("irradiation by the sky", "Einstrahlung, diffus");
         case Metric::irradiation_kwh_m2:
             return w("irradiation, beam and sky", "Einstrahlung, direkt und diffus");
+        case Metric::indirect_kwh_m2:
+            return w("irradiation reflected by the city", "von der Stadt reflektierte Einstrahlung");
         case Metric::reflected_kwh_m2:
             return w("reflected by open ground", "vom freien Boden reflektiert");
         case Metric::light_incidence_deg:
             return w("angle of free light incidence", "Winkel freien Lichteinfalls");
+        case Metric::sun_lx:
+            return w("illuminance by the sun", "Beleuchtungsstärke, Sonne");
+        case Metric::sky_lx:
+            return w("illuminance by the sky", "Beleuchtungsstärke, Himmel");
+        case Metric::indirect_lx:
+            return w("illuminance by reflected light", "Beleuchtungsstärke, reflektiertes Licht");
+        case Metric::illuminance_lx:
+            return w("illuminance", "Beleuchtungsstärke");
     }
     return "";
 }
 
 std::string Words::unit(Metric metric) const {
-    switch (metric) {
-        case Metric::sky_view_factor:
-            return "";
-        case Metric::sky_component_pct:
-        case Metric::sunshine_pct:
-        case Metric::winter_sunshine_pct:
-            return "%";
-        case Metric::irradiation_kwh_m2:
-        case Metric::reflected_kwh_m2:
-            return "kWh/m²";
-        case Metric::light_incidence_deg:
-            return "°";
-        default:
-            return "h";
-    }
+    const std::string_view plain = traits_of(metric).unit;
+    if (plain == "kWh/m2") return "kWh/m²";
+    if (plain == "deg") return "°";
+    return std::string(plain == "1" ? "" : plain);
 }
 
 std::string Words::kind(ReceiverKind kind) const {
@@ -98,6 +101,16 @@ std::string Words::kind(ReceiverKind kind) const {
             return w("points", "Punkte");
     }
     return "";
+}
+
+std::string Words::role(std::string_view role) const {
+    constexpr std::pair<std::string_view, std::string_view> kGerman[] = {
+        {"rule", "Regel"},        {"city", "Stadt"},    {"plan", "Vorhaben"}, {"before", "frühere Stadt"},
+        {"polygons", "Polygone"}, {"points", "Punkte"}, {"weather", "Wetter"}};
+    for (const auto& [english, german] : kGerman) {
+        if (english == role) return (*this)(english, german);
+    }
+    return std::string(role);
 }
 
 std::string Words::verdict(Verdict verdict) const {
@@ -127,43 +140,10 @@ std::string Words::day(CalendarDay day) const {
 std::string Words::column(const Study& study, const Column& column) const {
     std::string text = metric(column.metric);
     if (column.day) text += ", " + day(study.days[*column.day].day());
+    if (column.instant) text += fmt::format(", {}", study.instants[*column.instant]);
     if (column.is_before) text += (*this)(", before", ", vorher");
     const std::string u = unit(column.metric);
     return u.empty() ? text : fmt::format("{} [{}]", text, u);
-}
-
-int decimals_of(Metric metric) {
-    switch (metric) {
-        case Metric::sky_view_factor:
-            return 3;
-        case Metric::irradiation_kwh_m2:
-        case Metric::reflected_kwh_m2:
-        case Metric::light_incidence_deg:
-            return 0;
-        case Metric::sky_component_pct:
-        case Metric::sunshine_pct:
-        case Metric::winter_sunshine_pct:
-            return 1;
-        default:
-            return 2;
-    }
-}
-
-double least_change_of(Metric metric) {
-    switch (metric) {
-        case Metric::sky_view_factor:
-            return 0.002;
-        case Metric::sky_component_pct:
-        case Metric::sunshine_pct:
-        case Metric::winter_sunshine_pct:
-            return 0.2;
-        case Metric::irradiation_kwh_m2:
-        case Metric::reflected_kwh_m2:
-        case Metric::light_incidence_deg:
-            return 1.0;
-        default:
-            return 1.0 / 60.0;
-    }
 }
 
 }  // namespace skybake::io

@@ -31,6 +31,7 @@ class Words {
     std::string metric(Metric metric) const;
     std::string unit(Metric metric) const;  // "h", "%", "kWh/m²", …; empty for shares
     std::string kind(ReceiverKind kind) const;
+    std::string role(std::string_view role) const;  // of StudyInput
     std::string verdict(Verdict verdict) const;
     std::string day(CalendarDay day) const;                              // "21 March"
     std::string column(const Study& study, const Column& column) const;  // metric, day and state, with the unit
@@ -38,10 +39,5 @@ class Words {
   private:
     Language language_;
 };
-
-/// Decimals that a metric is told with.
-int decimals_of(Metric metric);
-/// Differences below this are none: crossings are right to a second, shares to the sampling of the sky.
-double least_change_of(Metric metric);
 
 }  // namespace skybake::io

@@ -10,15 +10,6 @@
 namespace skybake::io {
 namespace {
 
-/// 1, 2 or 5 times a power of ten, at least `least`.
-double round_step(double least) {
-    const double power = std::pow(10.0, std::floor(std::log10(least)));
-    for (const double factor : {1.0, 2.0, 5.0, 10.0}) {
-        if (factor * power >= least * (1.0 - 1e-9)) return factor * power;
-    }
-    return 10.0 * power;
-}
-
 Rgb8 eight_bit(const Rgb& linear) {
     Rgb8 colour{};
     for (int k = 0; k < 3; ++k)
@@ -34,6 +25,14 @@ Rgb8 mixed(const Rgb8& a, const Rgb8& b, double share) {
 }
 
 }  // namespace
+
+double round_step(double least) {
+    const double power = std::pow(10.0, std::floor(std::log10(least)));
+    for (const double factor : {1.0, 2.0, 5.0, 10.0}) {
+        if (factor * power >= least * (1.0 - 1e-9)) return factor * power;
+    }
+    return 10.0 * power;
+}
 
 std::string hex_of(const Rgb8& colour) {
     return fmt::format("#{:02x}{:02x}{:02x}", colour[0], colour[1], colour[2]);

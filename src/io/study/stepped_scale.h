@@ -11,6 +11,9 @@ namespace skybake::io {
 using Rgb8 = std::array<std::uint8_t, 3>;
 std::string hex_of(const Rgb8& colour);  // "#rrggbb"
 
+/// 1, 2 or 5 times a power of ten, at least `least`.
+double round_step(double least);
+
 struct SteppedScale {
     std::vector<double> edges;    // ascending; one more than there are classes
     std::vector<Rgb8> colours;    // one a class

@@ -28,6 +28,7 @@ td.borderline, .borderline { color: #8a5300; font-weight: bold; }
 .verdicts { display: flex; flex-wrap: wrap; gap: .6em; margin: 1em 0; }
 .verdict { border: 1.5px solid #333; border-left-width: 9px; padding: .5em .8em; flex: 1 1 40%; break-inside: avoid; }
 .verdict.pass { border-color: #17652d; } .verdict.fail { border-color: #a11226; } .verdict.borderline { border-color: #b06a00; }
+.verdict.reported { border-color: #777; }
 .verdict * { color: #1a1a1a; font-weight: normal; } .verdict strong { font-weight: bold; }
 figure { margin: .8em 0 1.2em; break-inside: avoid; } figcaption { font-size: .86em; color: #333; margin-top: .3em; }
 svg { display: block; width: 100%; height: auto; } svg.map { max-height: 225mm; }
@@ -38,10 +39,22 @@ code { font: .9em "DejaVu Sans Mono", monospace; overflow-wrap: anywhere; }
 .plate { display: grid; grid-template-columns: 112mm 1fr; gap: 4mm; align-items: center; }
 )css";
 
+/// The rule with its texts in the language, where it has them.
+Rule rule_in(Rule rule, Language language) {
+    if (language == Language::english || !rule.german) return rule;
+    rule.title = rule.german->title;
+    rule.confirmed = rule.german->confirmed;
+    rule.to_check = rule.german->to_check;
+    for (std::size_t c = 0; c < rule.criteria.size(); ++c) rule.criteria[c].text = rule.german->criteria[c];
+    return rule;
+}
+
 }  // namespace
 
-std::string study_html(const StudyReport& report, Language language) {
+std::string study_html(const StudyReport& results, Language language) {
     const Words words(language);
+    const Rule rule = rule_in(results.rule, language);
+    const StudyReport report{rule, results.study, results.groups, results.facts, results.pictures, results.findings};
     Html html;
     html.markup("<!DOCTYPE html>\n");
     html.open("html", {{"lang", words.code()}}).open("head");

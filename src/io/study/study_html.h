@@ -18,7 +18,6 @@ struct StudyReport {
     const StudyFacts& facts;
     const StudyPictures& pictures;
     const FindingLog& findings;
-    double seconds = 0.0;  // of the whole run, for the annex
 };
 
 /// Task, rule, data, method, results with tables, maps, skies and shadows, uncertainty, annex; no reference to any

@@ -39,7 +39,7 @@ json rule_json(const Rule& rule) {
         json entry = {{"id", c.id},
                       {"text", c.text},
                       {"metric", name_of(c.metric)},
-                      {"unit", unit_of(c.metric)},
+                      {"unit", traits_of(c.metric).unit},
                       {"tolerance", c.tolerance},
                       {"area_share", c.area_share},
                       {"required", c.is_required}};
@@ -71,7 +71,7 @@ json study_report(const Rule& rule, const Study& study, const std::vector<Group>
     json columns = json::array();
     for (const Column& column : study.columns)
         columns.push_back(
-            {{"name", column.name}, {"metric", name_of(column.metric)}, {"unit", unit_of(column.metric)}});
+            {{"name", column.name}, {"metric", name_of(column.metric)}, {"unit", traits_of(column.metric).unit}});
     json rows = json::array();
     for (const StudyRow& row : rows_of(study, sampled_packets(study.receivers, kReportPackets))) {
         const Vec3d& p = row.position;
@@ -115,6 +115,10 @@ json study_report(const Rule& rule, const Study& study, const std::vector<Group>
                      {"min_elevation_deg", rule.min_elevation_deg},
                      {"sky_directions", s.sky_directions},
                      {"ground_albedo", s.ground_albedo},
+                     {"paths", s.paths.paths},
+                     {"bounces", s.paths.bounces},
+                     {"seed", s.paths.seed},
+                     {"instants", facts.instants},
                      {"cell_m", facts.receivers.cell_m},
                      {"height_m", facts.receivers.height_m},
                      {"storey_height_m", facts.receivers.storey_height_m},

@@ -37,24 +37,6 @@ class Lines {
 
 }  // namespace
 
-const char* unit_of(Metric metric) {
-    switch (metric) {
-        case Metric::sky_view_factor:
-            return "1";
-        case Metric::sky_component_pct:
-        case Metric::sunshine_pct:
-        case Metric::winter_sunshine_pct:
-            return "%";
-        case Metric::irradiation_kwh_m2:
-        case Metric::reflected_kwh_m2:
-            return "kWh/m2";
-        case Metric::light_incidence_deg:
-            return "deg";
-        default:
-            return "h";
-    }
-}
-
 void write_cells_csv(const std::filesystem::path& path, const Rule& rule, const Study& study) {
     Lines lines(path);
     lines.put("receiver,kind,building,object,surface,storey,x,y,z,nx,ny,nz,area_m2");
@@ -128,7 +110,8 @@ void write_cells_gpkg(const std::filesystem::path& path, const Rule& rule, const
 
 bool write_ground_tiff(const std::filesystem::path& path, const Study& study, const std::string& crs) {
     std::vector<RasterBand> bands;
-    for (const Column& column : study.columns) bands.push_back({column.name, unit_of(column.metric), &column.values});
+    for (const Column& column : study.columns)
+        bands.push_back({column.name, traits_of(column.metric).unit, &column.values});
     return write_geotiff(path, study.receivers, bands, crs);
 }
 

@@ -45,6 +45,7 @@ struct StudyFacts {
     StudySettings settings;
     ReceiverOptions receivers;
     Period period;
+    std::vector<std::string> instants;   // "LABEL: SKY" of each
     std::optional<std::string> weather;  // where light of the year comes from
     std::vector<std::string> plan, removed;
     bool has_before = false;
@@ -57,8 +58,5 @@ struct StudyFacts {
 inline constexpr std::size_t kReportPackets = 32;  // of at most 16 rows: those of sampled_packets (study_rows.h)
 nlohmann::json study_report(const Rule& rule, const Study& study, const std::vector<Group>& groups,
                             const StudyFacts& facts);
-
-/// The unit of a metric as tables and maps name it: "h", "%", "1", "kWh/m2", "deg".
-const char* unit_of(Metric metric);
 
 }  // namespace skybake::io
