@@ -102,7 +102,8 @@ void set_albedos(Scene& scene, double ground_below_m, float ground, float wall) 
 
 class Courtyard {
   public:
-    Courtyard(const std::filesystem::path& folder, float ground_albedo, float wall_albedo) {
+    /// `turn_deg`: how far the sensors of the four winds are turned from the map's axes, clockwise from above.
+    Courtyard(const std::filesystem::path& folder, float ground_albedo, float wall_albedo, float turn_deg = 0.0f) {
         SilentProgress silent;
         LoadOptions options;
         options.raster.content = io::RasterContent::surface;
@@ -119,8 +120,10 @@ class Courtyard {
         const float z = above.z - ground.distance;
         ground_m_ = static_cast<double>(z) + scene_.origin.z;
         set_albedos(scene_, ground_m_ + 1.5, ground_albedo, wall_albedo);
-        for (const Sensor& sensor : kSensors)
-            points_.push_back({{above.x, above.y, z + static_cast<float>(kSensorM)}, sensor.normal});
+        const float turn = turn_deg * static_cast<float>(kPi / 180.0), c = std::cos(turn), d = std::sin(turn);
+        for (const auto& [name, n] : kSensors)
+            points_.push_back(
+                {{above.x, above.y, z + static_cast<float>(kSensorM)}, {c * n.x + d * n.y, c * n.y - d * n.x, n.z}});
     }
     double ground_m() const { return ground_m_; }
     std::size_t triangles() const { return scene_.triangles.size(); }
@@ -289,6 +292,10 @@ int run(int argc, char** argv) {
     fmt::print("as its end, but albedos of ground and walls 0.10, 0.15; 0.20, 0.30:\n");
     compare(Courtyard(folder, 0.10f, 0.15f), forcing, measured, -1, false);
     compare(Courtyard(folder, 0.20f, 0.30f), forcing, measured, -1, false);
+    for (const float turn_deg : {-10.0f, -15.0f, -20.0f, -25.0f, 15.0f}) {
+        fmt::print("the sensors turned clockwise by {} degrees (below 0: the other way):\n", turn_deg);
+        compare(Courtyard(folder, kGroundAlbedo, kWallAlbedo, turn_deg), forcing, measured, -1, false);
+    }
     if (argc > 2) write_plot(argv[2], measured, own);
     return 0;
 }
