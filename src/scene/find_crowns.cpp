@@ -10,6 +10,7 @@
 
 #include "base/check.h"
 #include "base/finding.h"
+#include "city/finding_codes.h"
 
 namespace skybake {
 
@@ -84,9 +85,8 @@ std::vector<Crown> find_crowns(const Scene& scene, float transmissivity, Finding
             crown.extinction = depth / static_cast<float>(mean_chord);
         } else if (type == ObjectType::solitary_vegetation) {
             crown.depth_per_crossing = 0.5f * depth;
-            findings.add({"SB218", Severity::info, scene.objects[object].id,
-                          "the plant is no closed body: each of its surfaces dims light as half a crown.",
-                          "Nothing to do, unless the shadow's depth matters: then model the crown as a closed solid."});
+            findings.add(
+                make_finding("SB218", scene.objects[object].id, "each of its surfaces dims light as half a crown."));
         } else {
             continue;  // a lawn, a bed: ground
         }
