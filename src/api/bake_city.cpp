@@ -135,6 +135,9 @@ BakeCityResult bake_city(const BakeCityOptions& options, Progress& progress) {
     io::BakeDescription description =
         describe(options, loaded, rays, daylights, default_views(scene, atlas, light, rays));
     description.attributes = std::move(attributes);
+    // The season may have been taken from the instants.
+    if (!scene.crowns.empty())
+        description.settings.emplace_back("crown-transmissivity-taken", fmt::format("{}", how.crown_transmissivity));
     description.inputs.insert(description.inputs.end(), lamps.files.begin(), lamps.files.end());
     result.written =
         io::write_bake(options.output, {scene, atlas, light, description, result.report, result.findings}, progress);
